@@ -1,0 +1,19 @@
+#pragma once
+#include <string>
+#include <vector>
+
+namespace svnet {
+
+/// The name of the processor, as the operating system gives it.
+std::string cpu_name();
+
+/// The instruction sets that the fast kernels may use on this machine, best first (Highway's names: AVX3, AVX2, SSE4,
+/// …).
+std::vector<std::string> instruction_sets();
+
+/// Keeps kernels from using instruction sets better than `name`. Throws Error for an unknown name or one that this
+/// machine lacks. Every program calls cap_from_environment first, which applies SVNET_MAX_ISA where it is set.
+void cap_instruction_set(const std::string& name);
+void cap_from_environment();
+
+}  // namespace svnet

@@ -1,0 +1,33 @@
+#pragma once
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+namespace svnet {
+
+/// What a user can cause and mend: one line that says what was wrong, where, and what to do.
+class Error : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The parts written one after the other.
+template <class... Parts>
+std::string joined(const Parts&... parts) {
+  std::ostringstream text;
+  (text << ... << parts);
+  return text.str();
+}
+
+template <class... Parts>
+[[noreturn]] void fail(const Parts&... parts) {
+  throw Error(joined(parts...));
+}
+
+/// Throws Error with the joined parts unless `condition` holds.
+template <class... Parts>
+void check(bool condition, const Parts&... parts) {
+  if (!condition) fail(parts...);
+}
+
+}  // namespace svnet

@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <memory>
+
+#include "base/index.h"
+
+namespace svnet {
+
+/// A thread pool that cuts ranges into chunks whose boundaries never depend on the number of threads, so that work
+/// which writes per chunk, or sums per chunk in order, gives the same bits for any number of threads.
+///
+/// Safe to call from several threads: a call that finds the pool busy, or comes from inside one of its own bodies,
+/// runs all its chunks on the calling thread.
+class Parallel {
+ public:
+  /// body(begin, end, worker): `worker` is in [0, threads()) and no two bodies run with the same worker at once
+  /// within one call; use it to index scratch memory.
+  using Body = std::function<void(Index begin, Index end, int worker)>;
+
+  explicit Parallel(int threads);
+  ~Parallel();
+  Parallel(const Parallel&) = delete;
+  Parallel& operator=(const Parallel&) = delete;
+
+  int threads() const;
+  /// Waits for a running call, then changes the number of threads. Throws Error outside [1, 1024].
+  void resize(int threads);
+
+  /// Runs body on [0, chunk), [chunk, 2 chunk), … up to `count`, in any order, and returns when all are done.
+  /// If bodies throw, the exception of the lowest chunk is rethrown.
+  void for_chunks(Index count, Index chunk, const Body& body);
+
+  /// The pool of the process. It starts with SVNET_THREADS threads, or as many as the affinity mask has CPUs.
+  static Parallel& shared();
+
+ private:
+  struct Pool;
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace svnet

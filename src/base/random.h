@@ -1,0 +1,87 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "base/index.h"
+
+namespace svnet {
+
+/// What a random stream is for. Each purpose draws from its own stream, so that changing one use of randomness leaves
+/// the others alone. The numbers are part of every result: never change one.
+enum class Stream : std::uint32_t {
+  weights = 1,
+  dropout = 2,
+  shuffle = 3,
+  problem = 4,
+  kmeans = 5,
+  selector = 6,
+  evaluation = 7,
+  cross_validation = 8,
+  collection = 9,
+};
+
+/// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`
+/// under `key`, as Random123 numbers the words.
+std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+
+/// The random numbers number `index` of a stream: key = seed (low word first), counter = index (low, high), step,
+/// stream. The same whatever the thread, rank or resume. A stream gives 2^34 words, then repeats.
+class RandomStream {
+ public:
+  RandomStream(std::uint64_t seed, Stream stream, std::uint64_t index = 0)
+      : key_{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)},
+        counter_{static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), 0,
+                 static_cast<std::uint32_t>(stream)} {}
+
+  /// The words of step 0, then of step 1, …, in order.
+  std::uint32_t bits32() {
+    if (used_ == 4) {
+      words_ = philox4x32(counter_, key_);
+      ++counter_[2];
+      used_ = 0;
+    }
+    return words_[used_++];
+  }
+
+  /// Low word first.
+  std::uint64_t bits64() {
+    const std::uint64_t low = bits32();
+    return low | (static_cast<std::uint64_t>(bits32()) << 32);
+  }
+
+  /// Uniform in [0, n), n > 0: the high word of bits32() · n; a draw whose low word is below 2^32 mod n is rejected
+  /// (Lemire, "Fast random integer generation in an interval", 2019), so that every value is equally likely.
+  std::uint32_t below(std::uint32_t n) {
+    for (;;) {
+      const std::uint64_t product = static_cast<std::uint64_t>(bits32()) * n;
+      const auto low = static_cast<std::uint32_t>(product);
+      if (low >= n || low >= (0u - n) % n) return static_cast<std::uint32_t>(product >> 32);
+    }
+  }
+
+  /// Uniform in [0, 1): the upper 53 bits of bits64() · 2^-53.
+  double uniform() { return static_cast<double>(bits64() >> 11) * 0x1p-53; }
+
+  /// Standard normal: √(-2 ln(1 - u)) cos(2π v) of two uniforms u, v in that order (Box and Muller 1958, one of the
+  /// pair).
+  double normal();
+
+ private:
+  std::array<std::uint32_t, 2> key_;
+  std::array<std::uint32_t, 4> counter_;
+  std::array<std::uint32_t, 4> words_{};
+  int used_ = 4;
+};
+
+/// The first `count` entries become a uniform draw without replacement from items[0 … n), in draw order (Fisher–Yates).
+template <class Item>
+void draw_without_replacement(RandomStream& random, Item* items, Index n, Index count) {
+  for (Index i = 0; i < count; ++i) {
+    const Index j = i + random.below(static_cast<std::uint32_t>(n - i));
+    const Item swapped = items[i];
+    items[i] = items[j];
+    items[j] = swapped;
+  }
+}
+
+}  // namespace svnet

@@ -1,0 +1,29 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace svnet {
+
+/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces. Content fingerprints are made with it.
+class Sha256 {
+ public:
+  Sha256& update(const void* data, std::size_t size);
+  Sha256& update(std::string_view text) { return update(text.data(), text.size()); }
+  /// The length first, then the text, so that ("ab", "c") and ("a", "bc") differ.
+  Sha256& update_field(std::string_view text);
+  /// 64 lower-case hexadecimal digits of everything so far.
+  std::string hex() const;
+
+ private:
+  void compress(const std::uint8_t* block);
+
+  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
+                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  std::array<std::uint8_t, 64> buffer_{};
+  std::uint64_t size_ = 0;
+};
+
+}  // namespace svnet
