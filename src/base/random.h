@@ -24,6 +24,15 @@ enum class Stream : std::uint32_t {
 /// under `key`, as Random123 numbers the words.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
+/// The four words of step `step` of the stream number `index`: counter = (index low, index high, step, stream),
+/// key = (seed low, seed high).
+inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Stream stream, std::uint64_t index,
+                                                 std::uint32_t step) {
+  return philox4x32({static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(index >> 32), step,
+                     static_cast<std::uint32_t>(stream)},
+                    {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
+}
+
 /// The random numbers number `index` of a stream: key = seed (low word first), counter = index (low, high), step,
 /// stream. The same whatever the thread, rank or resume. A stream gives 2^34 words, then repeats.
 class RandomStream {
