@@ -1,0 +1,30 @@
+#include "semantics/clusterer.h"
+
+namespace svnet {
+namespace {
+
+using Method = ClusteringOptions::Method;
+
+std::variant<Agglomerative, KMeans> algorithm(const ClusteringOptions& options, Index max_points, Index max_clusters) {
+  if (options.method == Method::kmeans) return KMeans(max_points, max_clusters, options.dimension, options.kmeans);
+  return Agglomerative(options.linkage, max_points);
+}
+
+}  // namespace
+
+std::string_view clustering_name(const ClusteringOptions& options) {
+  return options.method == Method::kmeans ? "kmeans" : linkage_name(options.linkage);
+}
+
+Clusterer::Clusterer(const ClusteringOptions& options, Index max_points, Index max_clusters)
+    : algorithm_(algorithm(options, max_points, max_clusters)) {}
+
+void Clusterer::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
+                        std::uint64_t seed, std::uint64_t number, std::span<std::int32_t> labels) {
+  if (auto* agglomerative = std::get_if<Agglomerative>(&algorithm_))
+    agglomerative->cluster(distances, rows, k, labels);
+  else
+    std::get<KMeans>(algorithm_).cluster(distances, rows, k, RandomStream(seed, Stream::kmeans, number), labels);
+}
+
+}  // namespace svnet

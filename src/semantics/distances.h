@@ -1,0 +1,35 @@
+#pragma once
+#include <memory>
+
+#include "base/index.h"
+#include "base/parallel.h"
+
+namespace svnet {
+
+/// A symmetric n x n matrix of squared Euclidean distances, float32, zero diagonal. Rows start on 64-byte borders.
+class DistanceMatrix {
+ public:
+  /// All zero. Throws Error for n < 0, or where the memory cannot be had.
+  explicit DistanceMatrix(Index n);
+
+  Index size() const { return size_; }
+  const float* row(Index i) const { return values_.get() + i * stride_; }
+  float* row(Index i) { return values_.get() + i * stride_; }
+  float operator()(Index i, Index j) const { return row(i)[j]; }
+
+ private:
+  struct Free {
+    void operator()(float* values) const;
+  };
+  Index size_, stride_;
+  std::unique_ptr<float[], Free> values_;
+};
+
+/// The squared distances between the rows of features (n, dimension), float or double. Features are centred by their
+/// mean, products are accumulated in double, and only the distance is rounded to float32; rows that nearly coincide are
+/// subtracted directly, so that equal rows have distance 0. The same bits for any number of threads. Throws Error for
+/// an empty shape, for a feature that is not finite and for a distance beyond float32.
+template <class T>
+DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel);
+
+}  // namespace svnet

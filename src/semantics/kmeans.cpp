@@ -1,0 +1,230 @@
+// Greedy k-means++: Arthur and Vassilvitskii, "k-means++: the advantages of careful seeding" (SODA 2007), section 5.
+// Distances to means from distances between points: Schoenberg 1935; the "kernel k-means" form of Lloyd.
+#include "semantics/kmeans.h"
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+using Row = Eigen::Map<Eigen::ArrayXd>;
+using Distances = Eigen::Map<const Eigen::ArrayXf>;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMeansOptions& options)
+    : max_points_(max_points),
+      max_clusters_(max_clusters),
+      dimension_(dimension),
+      options_(options),
+      distance_(static_cast<std::size_t>(max_points * max_points)),
+      initial_(max_clusters),
+      closest_(max_points),
+      cumulative_(max_points),
+      cluster_sum_(static_cast<std::size_t>(max_clusters * max_points)),
+      cluster_size_(max_clusters),
+      half_spread_(max_clusters),
+      shift_(max_clusters),
+      behind_(max_points),
+      next_behind_(max_points),
+      nearest_(max_points),
+      labels_(max_points),
+      previous_labels_(max_points),
+      members_(max_clusters),
+      number_(max_clusters) {
+  check(dimension >= 1, "[kmeans] the features have dimension ", dimension, "; at least 1 is needed");
+  check(options.n_init >= 1, "[kmeans] n_init is ", options.n_init, "; at least 1 is needed");
+  check(options.max_iterations >= 1, "[kmeans] max_iterations is ", options.max_iterations, "; at least 1 is needed");
+  check(options.tolerance >= 0, "[kmeans] tolerance is ", options.tolerance, "; it must not be negative");
+}
+
+double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
+                       RandomStream random, std::span<std::int32_t> labels) {
+  gather(distances, rows, k, labels.size());
+  const std::span run_labels(labels_.data(), static_cast<std::size_t>(n_));
+  double best = kInfinity;
+  for (Index run = 0; run < options_.n_init; ++run) {
+    choose_initial(random);
+    const double inertia = lloyd(run_labels);
+    if (inertia < best) {
+      best = inertia;
+      std::copy(run_labels.begin(), run_labels.end(), labels.begin());
+    }
+  }
+
+  std::fill_n(number_.begin(), k_, -1);
+  std::int32_t next = 0;
+  for (auto& label : labels) {
+    if (number_[label] < 0) number_[label] = next++;
+    label = number_[label];
+  }
+  return best;
+}
+
+double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
+                        std::span<const std::int32_t> initial, std::span<std::int32_t> labels) {
+  gather(distances, rows, static_cast<Index>(initial.size()), labels.size());
+  for (std::int32_t point : initial)
+    check(point >= 0 && point < n_, "[kmeans] initial centre ", point, " is not one of the ", n_, " points");
+  std::copy(initial.begin(), initial.end(), initial_.begin());
+  return lloyd(labels);
+}
+
+void KMeans::gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::size_t labels) {
+  n_ = static_cast<Index>(rows.size());
+  k_ = k;
+  check(k >= 1 && k <= n_, "[kmeans] cannot make ", k, " clusters of ", n_, " points; 1 to ", n_, " are possible");
+  check(n_ <= max_points_ && k <= max_clusters_, "[kmeans] ", n_, " points in ", k,
+        " clusters, but memory was made for ", max_points_, " in ", max_clusters_);
+  check(labels == rows.size(), "[kmeans] ", labels, " labels for ", n_, " points");
+  double total = 0;
+  for (Index i = 0; i < n_; ++i) {
+    const float* from = distances.row(rows[i]);
+    float* to = &distance_[i * n_];
+    for (Index j = 0; j < i; ++j) {
+      to[j] = distance_[j * n_ + i] = from[rows[j]];
+      total += to[j];
+    }
+    to[i] = 0;
+  }
+  // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
+  const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));
+  tolerance_ = options_.tolerance * variance / static_cast<double>(dimension_);
+}
+
+void KMeans::choose_initial(RandomStream& random) {
+  const auto distances_to = [&](Index point) { return Distances(&distance_[point * n_], n_).cast<double>(); };
+  Row closest(closest_.data(), n_);
+  initial_[0] = static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n_)));
+  closest = distances_to(initial_[0]);
+  const Index trials = 2 + static_cast<Index>(std::log(static_cast<double>(k_)));
+  for (Index c = 1; c < k_; ++c) {
+    std::partial_sum(closest_.begin(), closest_.begin() + n_, cumulative_.begin());
+    double best = kInfinity;
+    for (Index trial = 0; trial < trials; ++trial) {
+      const double target = random.uniform() * cumulative_[n_ - 1];
+      const Index found = std::lower_bound(cumulative_.begin(), cumulative_.begin() + n_, target) - cumulative_.begin();
+      const Index candidate = std::min(found, n_ - 1);
+      const double potential = closest.min(distances_to(candidate)).sum();
+      if (potential < best) {
+        best = potential;
+        initial_[c] = static_cast<std::int32_t>(candidate);
+      }
+    }
+    closest = closest.min(distances_to(initial_[c]));
+  }
+}
+
+double KMeans::lloyd(std::span<std::int32_t> labels) {
+  const auto inertia = [&] { return std::accumulate(nearest_.begin(), nearest_.begin() + n_, 0.0); };
+  start_at_initial();
+  std::fill_n(previous_labels_.begin(), n_, -1);
+  for (Index iteration = 0; iteration < options_.max_iterations; ++iteration) {
+    assign(labels);
+    fill_empty_clusters(labels);
+    const double shift = move_centres();
+    if (std::equal(labels.begin(), labels.end(), previous_labels_.begin())) {
+      for (Index i = 0; i < n_; ++i) nearest_[i] = std::max(0.0, to_centre(i, labels[i]));
+      return inertia();
+    }
+    if (shift <= tolerance_) break;
+    std::copy(labels.begin(), labels.end(), previous_labels_.begin());
+  }
+  assign(labels);  // so that the labels match the last centres
+  return inertia();
+}
+
+void KMeans::start_at_initial() {
+  std::fill_n(behind_.begin(), n_, -1);
+  for (Index c = 0; c < k_; ++c) {
+    Row(&cluster_sum_[c * n_], n_) = Distances(&distance_[initial_[c] * n_], n_).cast<double>();
+    cluster_size_[c] = 1;
+    half_spread_[c] = 0;
+  }
+}
+
+double KMeans::to_centre(Index point, Index cluster) const {
+  return cluster_sum_[cluster * n_ + point] / cluster_size_[cluster] - half_spread_[cluster];
+}
+
+/// The nearest centre of every point; of equally near ones the first.
+void KMeans::assign(std::span<std::int32_t> labels) {
+  std::fill_n(nearest_.begin(), n_, kInfinity);
+  for (Index c = 0; c < k_; ++c) {
+    if (cluster_size_[c] == 0) continue;
+    const double* sum = &cluster_sum_[c * n_];
+    const double scale = 1 / cluster_size_[c], half_spread = half_spread_[c];
+    for (Index i = 0; i < n_; ++i) {
+      const double distance = std::max(0.0, sum[i] * scale - half_spread);
+      const bool nearer = distance < nearest_[i];
+      nearest_[i] = nearer ? distance : nearest_[i];
+      labels[i] = nearer ? static_cast<std::int32_t>(c) : labels[i];
+    }
+  }
+}
+
+/// next_behind_: the labels, except that clusters without a point take the farthest points. shift_[c] becomes the sum
+/// of the squared distances of these points to the centre as it is.
+void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
+  std::fill_n(members_.begin(), k_, 0);
+  std::fill_n(shift_.begin(), k_, 0.0);
+  for (Index i = 0; i < n_; ++i) {
+    next_behind_[i] = labels[i];
+    ++members_[labels[i]];
+    shift_[labels[i]] += nearest_[i];
+  }
+  for (Index c = 0; c < k_; ++c) {
+    if (members_[c] > 0) continue;
+    Index farthest = -1;
+    for (Index i = 0; i < n_; ++i) {
+      const bool movable = next_behind_[i] == labels[i] && members_[labels[i]] > 1 && nearest_[i] > 0;
+      if (movable && (farthest < 0 || nearest_[i] > nearest_[farthest])) farthest = i;
+    }
+    if (farthest < 0) return;  // fewer distinct points than clusters
+    shift_[labels[farthest]] -= nearest_[farthest];
+    --members_[labels[farthest]];
+    if (cluster_size_[c] > 0) shift_[c] += std::max(0.0, to_centre(farthest, c));
+    ++members_[c];
+    next_behind_[farthest] = static_cast<std::int32_t>(c);
+  }
+}
+
+/// Makes the centres the means of next_behind_; returns the sum of the squares of their moves. The squared distance of
+/// an old centre to the mean of S is the mean squared distance of S to the old centre, less half the spread of S.
+double KMeans::move_centres() {
+  if (behind_[0] < 0) {  // the centres are initial points so far
+    std::fill_n(cluster_sum_.begin(), k_ * n_, 0.0);
+    std::fill_n(cluster_size_.begin(), k_, 0.0);
+  }
+  for (Index i = 0; i < n_; ++i) {
+    const std::int32_t from = behind_[i], to = next_behind_[i];
+    if (from == to) continue;
+    const auto distances = Distances(&distance_[i * n_], n_).cast<double>();
+    if (from >= 0) {
+      Row(&cluster_sum_[from * n_], n_) -= distances;
+      --cluster_size_[from];
+    }
+    Row(&cluster_sum_[to * n_], n_) += distances;
+    ++cluster_size_[to];
+    behind_[i] = to;
+  }
+  std::fill_n(half_spread_.begin(), k_, 0.0);
+  for (Index i = 0; i < n_; ++i) half_spread_[behind_[i]] += cluster_sum_[behind_[i] * n_ + i];
+  double total = 0;
+  for (Index c = 0; c < k_; ++c) {
+    if (cluster_size_[c] == 0) continue;
+    half_spread_[c] /= 2 * cluster_size_[c] * cluster_size_[c];
+    total += std::max(0.0, shift_[c] / cluster_size_[c] - half_spread_[c]);
+  }
+  return total;
+}
+
+}  // namespace svnet

@@ -1,0 +1,81 @@
+#include "semantics/score_sums.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+double mean(std::uint64_t sum, std::uint64_t count) {
+  return count == 0 ? kNaN : static_cast<double>(sum) * 0x1p-32 / static_cast<double>(count);
+}
+
+}  // namespace
+
+void ScoreSums::take(ScoreSums& other) {
+  check(views.size() == other.views.size(), "[scores] sums of ", other.views.size(),
+        " views cannot be added to those of ", views.size());
+  problems += other.problems;
+  other.problems = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) {
+    View &to = views[v], &from = other.views[v];
+    to.count += from.count;
+    to.individual_count += from.individual_count;
+    to.individual += from.individual;
+    to.individual_squared += from.individual_squared;
+    to.global += from.global;
+    from = View{};
+  }
+}
+
+double standard_error(const ScoreSums::View& sums) {
+  if (sums.individual_count < 2) return kNaN;
+  const double n = static_cast<double>(sums.individual_count);
+  const double sum = static_cast<double>(sums.individual) * 0x1p-32;
+  const double squares = static_cast<double>(sums.individual_squared) * 0x1p-32;
+  const double variance = std::max(0.0, squares - sum * sum / n) / (n - 1);
+  return std::sqrt(variance / n);
+}
+
+SemanticScores scores_from(const ScoreSums& sums) {
+  SemanticScores scores;
+  scores.problems = sums.problems;
+  for (const auto& view : sums.views) {
+    scores.individual.push_back(mean(view.individual, view.individual_count));
+    scores.global.push_back(mean(view.global, view.count));
+    scores.count.push_back(view.count);
+    scores.standard_error.push_back(standard_error(view));
+  }
+  return scores;
+}
+
+std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<const std::int32_t> pose_of_view) {
+  check(scores.size() == pose_of_view.size(), "[scores] ", scores.size(), " scores for ", pose_of_view.size(),
+        " views");
+  struct Extent {
+    double lowest = std::numeric_limits<double>::infinity(), highest = -lowest;
+  };
+  std::vector<Extent> extents;
+  for (std::size_t v = 0; v < scores.size(); ++v) {
+    check(pose_of_view[v] >= 0, "[scores] view ", v, " has pose ", pose_of_view[v], "; poses are numbered from 0");
+    if (extents.size() <= static_cast<std::size_t>(pose_of_view[v])) extents.resize(pose_of_view[v] + 1);
+    if (std::isnan(scores[v])) continue;
+    auto& extent = extents[pose_of_view[v]];
+    extent.lowest = std::min(extent.lowest, scores[v]);
+    extent.highest = std::max(extent.highest, scores[v]);
+  }
+  std::vector<double> scaled(scores.size(), kNaN);
+  for (std::size_t v = 0; v < scores.size(); ++v) {
+    if (std::isnan(scores[v])) continue;
+    const auto [lowest, highest] = extents[pose_of_view[v]];
+    scaled[v] = lowest == highest ? 0.5 : (scores[v] - lowest) / (highest - lowest);
+  }
+  return scaled;
+}
+
+}  // namespace svnet

@@ -1,0 +1,54 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/index.h"
+
+namespace svnet {
+
+/// What the problems solved so far add up to, per view. Scores are in 64-bit fixed point with 32 binary places, so that
+/// sums over 2^32 problems fit and do not depend on the order of the additions: states of any parts of the work
+/// (threads, ranks, sessions) merge into the same bits.
+struct ScoreSums {
+  struct View {
+    std::uint64_t count = 0;             ///< problems that contain the view
+    std::uint64_t individual_count = 0;  ///< those with an individual score: fewer under Singletons::skip
+    std::uint64_t individual = 0;        ///< sum of the individual scores
+    std::uint64_t individual_squared = 0;
+    std::uint64_t global = 0;  ///< sum of the problems' scores
+
+    bool operator==(const View&) const = default;
+  };
+  std::uint64_t problems = 0;  ///< numbers 0 to problems - 1 are in; in a part of the work, how many are
+  std::vector<View> views;
+
+  ScoreSums() = default;
+  explicit ScoreSums(Index view_count) : views(view_count) {}
+  bool operator==(const ScoreSums&) const = default;
+
+  /// A score in [0, 1] in fixed point, rounded to nearest.
+  static std::uint64_t fixed(double score) { return static_cast<std::uint64_t>(score * 0x1p32 + 0.5); }
+
+  /// Adds the other state and makes it zero. Throws Error for a different number of views.
+  void take(ScoreSums& other);
+};
+
+/// Means per view. NaN where a mean or an error has nothing to stand on: no problem, or fewer than two for the error.
+struct SemanticScores {
+  std::vector<double> individual, global;
+  std::vector<std::uint64_t> count;    ///< problems that contain the view
+  std::vector<double> standard_error;  ///< of the individual mean
+  std::uint64_t problems = 0;
+};
+
+SemanticScores scores_from(const ScoreSums& sums);
+
+/// Standard error of the individual mean of one view; NaN for fewer than two scores.
+double standard_error(const ScoreSums::View& sums);
+
+/// Scores scaled to [0, 1] among the views of each pose; 0.5 where they are all equal. NaN stays, and counts for
+/// nothing. Throws Error where the lengths differ or a pose is negative.
+std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<const std::int32_t> pose_of_view);
+
+}  // namespace svnet

@@ -1,0 +1,192 @@
+#include "semantics/agglomerative.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+#include "semantics/allocations.h"
+#include "semantics/clustering_fixtures.h"
+#include "semantics/random_points.h"
+
+using namespace svnet;
+
+namespace {
+
+constexpr Linkage kLinkages[] = {Linkage::ward, Linkage::average, Linkage::complete, Linkage::single};
+
+struct Points {
+  const std::vector<float>& values;
+  Index dimension;
+
+  double distance(Index i, Index j) const {
+    double sum = 0;
+    for (Index d = 0; d < dimension; ++d)
+      sum += std::pow(static_cast<double>(values[i * dimension + d]) - values[j * dimension + d], 2);
+    return std::sqrt(sum);
+  }
+};
+
+using Cluster = std::vector<std::int32_t>;
+
+/// By the definition of the linkage, from the points themselves.
+double dissimilarity(Linkage linkage, const Points& points, const Cluster& a, const Cluster& b) {
+  if (linkage == Linkage::ward) {
+    double sum = 0;
+    for (Index d = 0; d < points.dimension; ++d) {
+      double mean_a = 0, mean_b = 0;
+      for (auto i : a) mean_a += points.values[i * points.dimension + d] / static_cast<double>(a.size());
+      for (auto i : b) mean_b += points.values[i * points.dimension + d] / static_cast<double>(b.size());
+      sum += (mean_a - mean_b) * (mean_a - mean_b);
+    }
+    return sum * static_cast<double>(a.size() * b.size()) / static_cast<double>(a.size() + b.size());
+  }
+  double sum = 0, lowest = std::numeric_limits<double>::infinity(), highest = 0;
+  for (auto i : a)
+    for (auto j : b) {
+      const double distance = points.distance(i, j);
+      sum += distance;
+      lowest = std::min(lowest, distance);
+      highest = std::max(highest, distance);
+    }
+  if (linkage == Linkage::average) return sum / static_cast<double>(a.size() * b.size());
+  return linkage == Linkage::single ? lowest : highest;
+}
+
+/// The algorithm without any shortcut: of all pairs of clusters the least dissimilar one, until k are left.
+std::vector<std::int32_t> naive(Linkage linkage, const Points& points, const std::vector<std::int32_t>& rows, Index k) {
+  std::vector<Cluster> clusters;
+  std::vector<Cluster> positions;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    clusters.push_back({rows[i]});
+    positions.push_back({static_cast<std::int32_t>(i)});
+  }
+  while (static_cast<Index>(clusters.size()) > k) {
+    double smallest = std::numeric_limits<double>::infinity();
+    std::size_t best_a = 0, best_b = 0;
+    for (std::size_t a = 0; a < clusters.size(); ++a)
+      for (std::size_t b = a + 1; b < clusters.size(); ++b)
+        if (const double d = dissimilarity(linkage, points, clusters[a], clusters[b]); d < smallest) {
+          smallest = d;
+          best_a = a;
+          best_b = b;
+        }
+    clusters[best_a].insert(clusters[best_a].end(), clusters[best_b].begin(), clusters[best_b].end());
+    positions[best_a].insert(positions[best_a].end(), positions[best_b].begin(), positions[best_b].end());
+    clusters.erase(clusters.begin() + static_cast<std::ptrdiff_t>(best_b));
+    positions.erase(positions.begin() + static_cast<std::ptrdiff_t>(best_b));
+  }
+  std::vector<std::int32_t> labels(rows.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c)
+    for (auto i : positions[c]) labels[i] = static_cast<std::int32_t>(c);
+  return labels;  // clusters stay in the order of their first points: numbered by first appearance
+}
+
+std::vector<std::int32_t> clustered(Linkage linkage, const DistanceMatrix& distances,
+                                    const std::vector<std::int32_t>& rows, Index k) {
+  std::vector<std::int32_t> labels(rows.size());
+  Agglomerative(linkage, static_cast<Index>(rows.size())).cluster(distances, rows, k, labels);
+  return labels;
+}
+
+/// The distances of points on a line.
+DistanceMatrix line(const std::vector<float>& positions) { return distances_of(positions, 1); }
+
+}  // namespace
+
+TEST_CASE("partitions are those of scikit-learn") {
+  Index compared = 0;
+  for (const auto& points : clustering_fixtures().points) {
+    const DistanceMatrix distances = distances_of(points.features, points.dimension);
+    for (const auto& partition : points.partitions) {
+      INFO(partition.linkage << ", " << points.n << " points, " << partition.k << " clusters");
+      CHECK(clustered(linkage_named(partition.linkage), distances, all_rows(points.n), partition.k) ==
+            by_first_appearance(partition.labels));
+      ++compared;
+    }
+  }
+  CHECK(compared >= 50);
+}
+
+TEST_CASE("every linkage agrees with the naive algorithm on subsets of rows in any order") {
+  const Index n = 60, dimension = 6;
+  const auto values = random_points(n, dimension, 6, 21);
+  const DistanceMatrix distances = distances_of(values, dimension);
+  RandomStream random(22, Stream::shuffle);
+  for (Linkage linkage : kLinkages) {
+    Agglomerative workspace(linkage, 40);
+    for (int repeat = 0; repeat < 40; ++repeat) {
+      auto rows = all_rows(n);
+      const Index count = 1 + random.below(40);
+      draw_without_replacement(random, rows.data(), n, count);
+      rows.resize(count);
+      const Index k = 1 + random.below(static_cast<std::uint32_t>(count));
+      std::vector<std::int32_t> labels(count);
+      workspace.cluster(distances, rows, k, labels);
+      INFO(linkage_name(linkage) << ", " << count << " points, " << k << " clusters");
+      REQUIRE(labels == naive(linkage, {values, dimension}, rows, k));
+    }
+  }
+}
+
+TEST_CASE("average linkage averages distances, not their squares") {
+  DistanceMatrix distances(4);
+  const auto set = [&](Index i, Index j, float distance) {
+    distances.row(i)[j] = distances.row(j)[i] = distance * distance;
+  };
+  set(0, 1, 3);
+  set(0, 2, 3.1f);
+  set(1, 2, 6);
+  set(2, 3, 4.65f);
+  set(0, 3, 7);
+  set(1, 3, 7);
+  // {0, 1} to 2 has the mean 4.55 < 4.65, but the mean square 4.775².
+  CHECK(clustered(Linkage::average, distances, {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 0, 1});
+}
+
+TEST_CASE("of equal pairs the one with the lowest clusters is merged") {
+  const DistanceMatrix equal = line({0, 1, 2, 3, 4, 5});
+  for (Linkage linkage : kLinkages)
+    CHECK(clustered(linkage, equal, {0, 1, 2, 3, 4, 5}, 5) == std::vector<std::int32_t>{0, 0, 1, 2, 3, 4});
+  // After {0, 1}: single linkage is tied between {0, 1}-2 and 2-3; the lower cluster goes first.
+  CHECK(clustered(Linkage::single, equal, {0, 1, 2, 3, 4, 5}, 4) == std::vector<std::int32_t>{0, 0, 0, 1, 2, 3});
+  CHECK(clustered(Linkage::complete, equal, {0, 1, 2, 3, 4, 5}, 3) == std::vector<std::int32_t>{0, 0, 1, 1, 2, 2});
+  // Slots hold the positions 5 3 4 0 1 2: {5, 4}, then 3, 2 and 1 join, each time ahead of the equal pair {0, 1}.
+  CHECK(clustered(Linkage::single, equal, {5, 3, 4, 0, 1, 2}, 2) == std::vector<std::int32_t>{0, 0, 0, 1, 0, 0});
+  // 1 and 3 are merged first. Then 0 is as near to them as to 2, which was its nearest until then.
+  CHECK(clustered(Linkage::single, line({0, 3, -2, 2}), {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 1, 0});
+  const DistanceMatrix same = line({7, 7, 7, 7});
+  CHECK(clustered(Linkage::ward, same, {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 0, 1});
+}
+
+TEST_CASE("agglomerative clustering allocates nothing") {
+  const DistanceMatrix distances = distances_of(random_points(30, 3, 3, 23), 3);
+  const auto rows = all_rows(30);
+  std::vector<std::int32_t> labels(30);
+  for (Linkage linkage : kLinkages) {
+    Agglomerative workspace(linkage, 30);
+    const std::size_t before = allocations();
+    for (Index k = 1; k <= 30; ++k) workspace.cluster(distances, rows, k, labels);
+    CHECK(allocations() == before);
+  }
+}
+
+TEST_CASE("linkages have names") {
+  for (Linkage linkage : kLinkages) CHECK(linkage_named(linkage_name(linkage)) == linkage);
+  CHECK_THROWS_WITH(linkage_named("wart"), Catch::Contains("[linkage] 'wart' is unknown, did you mean 'ward'?"));
+}
+
+TEST_CASE("agglomerative clustering refuses impossible numbers of clusters") {
+  const DistanceMatrix distances = line({0, 1, 2});
+  CHECK_THROWS_WITH(clustered(Linkage::ward, distances, {0, 1, 2}, 0),
+                    "[agglomerative] cannot make 0 clusters of 3 points; 1 to 3 are possible");
+  CHECK_THROWS_WITH(clustered(Linkage::ward, distances, {0, 1, 2}, 4),
+                    "[agglomerative] cannot make 4 clusters of 3 points; 1 to 3 are possible");
+  Agglomerative small(Linkage::ward, 2);
+  std::vector<std::int32_t> labels(3);
+  CHECK_THROWS_WITH(small.cluster(distances, all_rows(3), 1, labels),
+                    "[agglomerative] 3 points, but memory was made for 2");
+  labels.resize(1);
+  CHECK_THROWS_WITH(small.cluster(distances, std::vector<std::int32_t>{0, 1}, 1, labels),
+                    "[agglomerative] 1 labels for 2 points");
+}

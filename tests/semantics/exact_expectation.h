@@ -1,0 +1,35 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "semantics/cluster_metrics.h"
+#include "semantics/clustering_problems.h"
+#include "semantics/distances.h"
+
+/// A data set small enough to write down all its clustering problems.
+struct SmallDataset {
+  std::vector<std::int64_t> category, object, pose;  // per view
+
+  /// `views` views of one pose.
+  void add(std::int64_t of_category, std::int64_t of_object, std::int64_t of_pose, svnet::Index views);
+  svnet::Index views() const { return static_cast<svnet::Index>(category.size()); }
+
+  /// Four categories with 2, 2, 3 and 1 objects, poses and views unevenly spread; 6644 problems of 3 or 4 categories.
+  static SmallDataset uneven();
+};
+
+struct WeightedProblem {
+  std::vector<std::int32_t> rows, labels;  // labels by category, ascending
+  double probability;
+};
+
+/// Every problem of PAPER.md section 4 with its probability, from min_categories to all, 1 to all objects of each.
+std::vector<WeightedProblem> all_problems(const SmallDataset& dataset, svnet::Index min_categories);
+
+struct ExactScores {
+  std::vector<double> individual, global, inclusion;  // per view; inclusion: probability that a problem contains it
+};
+
+/// The expected score of each view over the problems that contain it; Ward linkage.
+ExactScores exact_scores(const svnet::DistanceMatrix& distances, const std::vector<WeightedProblem>& problems,
+                         svnet::Singletons singletons);

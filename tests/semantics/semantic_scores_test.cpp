@@ -1,0 +1,245 @@
+#include "semantics/semantic_scores.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+
+#include "base/error.h"
+#include "semantics/allocations.h"
+#include "semantics/exact_expectation.h"
+#include "semantics/random_points.h"
+
+using namespace svnet;
+
+namespace {
+
+/// The uneven data set with features that a clustering gets right for some views and wrong for others.
+struct Fixture {
+  SmallDataset dataset = SmallDataset::uneven();
+  std::vector<float> features = clustered_features(dataset);
+  DistanceMatrix distances = distances_of(features, 3);
+
+  static std::vector<float> clustered_features(const SmallDataset& dataset) {
+    RandomStream random(83, Stream::shuffle);
+    std::vector<float> features;
+    for (std::int64_t category : dataset.category)
+      for (int d = 0; d < 3; ++d)
+        features.push_back(static_cast<float>(1.5 * std::sin(1.7 * (category + d)) + random.normal()));
+    return features;
+  }
+
+  ClusteringProblems problems(const ProblemOptions& options = {}) const {
+    return {dataset.category, dataset.object, dataset.pose, options};
+  }
+};
+
+bool same_bits(const std::vector<double>& a, const std::vector<double>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(double)) == 0;
+}
+
+void check_same(const SemanticScores& a, const SemanticScores& b) {
+  CHECK(same_bits(a.individual, b.individual));
+  CHECK(same_bits(a.global, b.global));
+  CHECK(same_bits(a.standard_error, b.standard_error));
+  CHECK(a.count == b.count);
+  CHECK(a.problems == b.problems);
+}
+
+}  // namespace
+
+TEST_CASE("Monte-Carlo scores are within four standard errors of the exact expectations") {
+  const Fixture f;
+  const auto problems = f.problems();
+  const auto everything = all_problems(f.dataset, 3);
+  for (Singletons singletons : {Singletons::zero, Singletons::skip}) {
+    const ExactScores exact = exact_scores(f.distances, everything, singletons);
+    const auto scores = semantic_scores(f.distances, problems,
+                                        {.problems = 200000, .seed = 72, .singletons = singletons}, Parallel::shared());
+    CHECK(scores.problems == 200000);
+    for (Index v = 0; v < f.dataset.views(); ++v) {
+      INFO("view " << v << (singletons == Singletons::skip ? ", skip" : ", zero"));
+      const double count = static_cast<double>(scores.count[v]);
+      CHECK(std::abs(count / 200000 - exact.inclusion[v]) <
+            4 * std::sqrt(exact.inclusion[v] * (1 - exact.inclusion[v]) / 200000));
+      // The problems' scores lie in [0, 1]: their standard deviation is at most a half.
+      CHECK(std::abs(scores.global[v] - exact.global[v]) < 4 * 0.5 / std::sqrt(count));
+      const bool alone = f.dataset.category[v] == 4;  // the only object of its category
+      if (alone && singletons == Singletons::skip) {
+        CHECK(std::isnan(scores.individual[v]));
+        CHECK(std::isnan(exact.individual[v]));
+        continue;
+      }
+      CHECK(std::abs(scores.individual[v] - exact.individual[v]) <= 4 * scores.standard_error[v]);
+      CHECK(scores.standard_error[v] < 0.01);
+      if (!alone) CHECK(scores.standard_error[v] > 1e-5);
+    }
+  }
+}
+
+TEST_CASE("standard errors cover the exact expectations as often as they promise") {
+  const Fixture f;
+  const auto problems = f.problems();
+  const ExactScores exact = exact_scores(f.distances, all_problems(f.dataset, 3), Singletons::zero);
+  const int seeds = 200;
+  std::vector<int> covered(f.dataset.views());
+  for (int seed = 0; seed < seeds; ++seed) {
+    const auto scores = semantic_scores(
+        f.distances, problems, {.problems = 3000, .seed = 1000 + static_cast<std::uint64_t>(seed)}, Parallel::shared());
+    for (Index v = 0; v < f.dataset.views(); ++v)
+      covered[v] += std::abs(scores.individual[v] - exact.individual[v]) <= 1.96 * scores.standard_error[v];
+  }
+  for (Index v = 0; v < f.dataset.views(); ++v) {
+    if (f.dataset.category[v] == 4) continue;  // always 0
+    INFO("view " << v);
+    REQUIRE(std::abs(exact.individual[v] - 0.5) < 0.45);  // else the mean of so few problems is not normal
+    CHECK(covered[v] / static_cast<double>(seeds) >= 0.90);
+    CHECK(covered[v] / static_cast<double>(seeds) <= 0.99);
+  }
+}
+
+TEST_CASE("scores have the same bits for any number of threads") {
+  const Fixture f;
+  const auto problems = f.problems();
+  for (auto method : {ClusteringOptions::Method::agglomerative, ClusteringOptions::Method::kmeans})
+    for (ScoreOptions options : {ScoreOptions{.problems = 5000}, ScoreOptions{.min_samples = 5000}}) {
+      options.seed = 73;
+      options.clustering = {.method = method, .kmeans = {.n_init = 2}, .dimension = 3};
+      Parallel one(1);
+      const auto expected = semantic_scores(f.distances, problems, options, one);
+      for (int threads : {2, 8}) {
+        Parallel pool(threads);
+        check_same(semantic_scores(f.distances, problems, options, pool), expected);
+      }
+    }
+}
+
+TEST_CASE("scores stop when every view has its samples, at a block border") {
+  const Fixture f;
+  const auto problems = f.problems({.excluded_categories = {4}});
+  const auto scores = semantic_scores(f.distances, problems, {.min_samples = 20000, .seed = 74}, Parallel::shared());
+  CHECK(scores.problems % 16384 == 0);
+  std::uint64_t fewest = scores.problems;
+  for (Index v = 0; v < f.dataset.views(); ++v) {
+    if (f.dataset.category[v] == 4) {
+      CHECK(scores.count[v] == 0);
+      CHECK(std::isnan(scores.individual[v]));
+      CHECK(std::isnan(scores.global[v]));
+      CHECK(std::isnan(scores.standard_error[v]));
+    } else {
+      fewest = std::min(fewest, scores.count[v]);
+    }
+  }
+  CHECK(fewest >= 20000);
+  // One block earlier there were too few.
+  const auto before =
+      semantic_scores(f.distances, problems, {.problems = scores.problems - 16384, .seed = 74}, Parallel::shared());
+  for (Index v = 0; v < f.dataset.views(); ++v)
+    if (before.count[v] > 0) fewest = std::min(fewest, before.count[v]);
+  CHECK(fewest < 20000);
+}
+
+TEST_CASE("scores stop at the target error") {
+  const Fixture f;
+  const auto problems = f.problems();
+  for (Singletons singletons : {Singletons::zero, Singletons::skip}) {
+    const auto scores = semantic_scores(
+        f.distances, problems, {.target_error = 0.003, .seed = 75, .singletons = singletons}, Parallel::shared());
+    CHECK(scores.problems > 16384);
+    for (double error : scores.standard_error) CHECK_FALSE(error > 0.003);
+  }
+  const auto capped =
+      semantic_scores(f.distances, problems, {.problems = 100, .target_error = 1e-9, .seed = 75}, Parallel::shared());
+  CHECK(capped.problems == 100);
+}
+
+TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
+  const Fixture f;
+  const auto problems = f.problems();
+  Parallel pool(2);
+  ScoreSums whole(problems.views());
+  std::vector<ScoreSums> snapshots;
+  continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, whole, {},
+                  [&](const ScoreSums& sums) { snapshots.push_back(sums); });
+  REQUIRE(snapshots.size() == 3);
+  CHECK(snapshots[1].problems == 32768);
+  CHECK(snapshots.back() == whole);
+  ScoreSums resumed = snapshots[0];
+  continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, resumed);
+  CHECK(resumed == whole);
+
+  // Between borders the rules are not looked at.
+  continue_scores(f.distances, problems, {.min_samples = 1, .seed = 76}, pool, resumed);
+  CHECK(resumed.problems == 49152);
+
+  ProblemSolver solver(f.distances, problems, {.seed = 76}, pool);
+  ScoreSums last(problems.views()), first(problems.views());
+  solver.solve(10007, 40000, last);
+  solver.solve(0, 10007, first);
+  first.take(last);
+  CHECK(first == whole);
+}
+
+TEST_CASE("another seed or clustering gives other scores") {
+  const Fixture f;
+  const auto problems = f.problems();
+  const auto individual = [&](const ScoreOptions& options) {
+    return semantic_scores(f.distances, problems, options, Parallel::shared()).individual;
+  };
+  const auto ward = individual({.problems = 2000, .seed = 77});
+  CHECK(individual({.problems = 2000, .seed = 77}) == ward);
+  CHECK(individual({.problems = 2000, .seed = 78}) != ward);
+  CHECK(individual({.problems = 2000, .seed = 77, .clustering = {.linkage = Linkage::single}}) != ward);
+  const auto kmeans = individual(
+      {.problems = 2000, .seed = 77, .clustering = {.method = ClusteringOptions::Method::kmeans, .dimension = 3}});
+  CHECK(kmeans != ward);
+}
+
+TEST_CASE("solving problems allocates nothing per problem") {
+  const Fixture f;
+  const auto problems = f.problems();
+  Parallel one(1);
+  for (auto method : {ClusteringOptions::Method::agglomerative, ClusteringOptions::Method::kmeans}) {
+    ProblemSolver solver(f.distances, problems, {.clustering = {.method = method}}, one);
+    ScoreSums sums(problems.views());
+    const auto cost = [&](std::uint64_t count) {
+      const std::size_t before = allocations();
+      solver.solve(0, count, sums);
+      return allocations() - before;
+    };
+    CHECK(cost(10) == cost(5000));
+  }
+}
+
+TEST_CASE("progress tells how far the scores are") {
+  const Fixture f;
+  Index last_done = 0, last_total = 0;
+  const Messages messages{.line = {}, .progress = [&](std::string_view task, Index done, Index total, double) {
+                            CHECK(task == "semantic scores");
+                            CHECK(done >= last_done);
+                            last_done = done;
+                            last_total = total;
+                          }};
+  semantic_scores(f.distances, f.problems(), {.problems = 30000}, Parallel::shared(), messages);
+  CHECK(last_done == 30000);
+  CHECK(last_total == 30000);
+}
+
+TEST_CASE("scores refuse options that cannot be followed") {
+  const Fixture f;
+  const auto problems = f.problems();
+  const auto scores = [&](const ScoreOptions& options) {
+    return semantic_scores(f.distances, problems, options, Parallel::shared());
+  };
+  CHECK_THROWS_WITH(scores({}), "[scores] nothing says when to stop; give problems, min_samples or target_error");
+  CHECK_THROWS_WITH(scores({.problems = 1, .target_error = -0.5}),
+                    "[scores] target_error is -0.5; it must not be negative");
+  const DistanceMatrix other(3);
+  CHECK_THROWS_WITH(semantic_scores(other, problems, {.problems = 1}, Parallel::shared()),
+                    "[scores] distances of 3 views, but problems of 17");
+  ScoreSums wrong(2);
+  CHECK_THROWS_WITH(continue_scores(f.distances, problems, {.problems = 1}, Parallel::shared(), wrong),
+                    "[scores] the sums so far are of 2 views, the problems of 17");
+  CHECK_THROWS_WITH(
+      scores({.problems = 1, .clustering = {.method = ClusteringOptions::Method::kmeans, .dimension = 0}}),
+      "[kmeans] the features have dimension 0; at least 1 is needed");
+}
