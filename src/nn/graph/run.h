@@ -1,0 +1,25 @@
+#pragma once
+#include <vector>
+
+#include "nn/graph/graph.h"
+#include "nn/graph/parameters.h"
+
+namespace svnet {
+
+/// What a training step needs to know: dropout masks depend on the seed, the step and the layer, nothing else.
+struct TrainingContext {
+  std::uint64_t seed = 0;
+  std::uint64_t step = 0;
+};
+
+/// Runs the layers that `outputs` depend on and returns their values, in that order. `inputs` are batches for
+/// graph.inputs(), in order, of the parameters' element type. Values are released once their last reader has run.
+/// Inference: batch norm uses the moving statistics, dropout does nothing, nothing is recorded.
+std::vector<Tensor> infer(const Graph& graph, const Parameters& parameters, const std::vector<Tensor>& inputs,
+                          const std::vector<NodeId>& outputs);
+
+/// Training: batch norm uses the batch and updates the moving statistics, dropout drops, the tape is recorded.
+std::vector<Tensor> train(const Graph& graph, Parameters& parameters, const std::vector<Tensor>& inputs,
+                          const std::vector<NodeId>& outputs, const TrainingContext& context);
+
+}  // namespace svnet

@@ -1,0 +1,64 @@
+#include "nn/kernels/epilogue.h"
+
+#include <limits>
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nn/kernels/epilogue.cpp"
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace svnet::kernels {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+void bias_clamp_rows(const float* bias, float low, float high, Index rows, Index columns, Index stride, float* y) {
+  const hn::ScalableTag<float> d;
+  const Index lanes = static_cast<Index>(hn::Lanes(d));
+  const auto at_least = hn::Set(d, low), at_most = hn::Set(d, high);
+  for (Index row = 0; row < rows; ++row, y += stride) {
+    Index c = 0;
+    for (; c + lanes <= columns; c += lanes) {
+      auto value = hn::LoadU(d, y + c);
+      if (bias != nullptr) value = hn::Add(value, hn::LoadU(d, bias + c));
+      hn::StoreU(hn::Min(at_most, hn::Max(at_least, value)), d, y + c);  // in this order NaN stays NaN
+    }
+    for (; c < columns; ++c) {
+      const float value = bias != nullptr ? y[c] + bias[c] : y[c];
+      y[c] = value < low ? low : value > high ? high : value;
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace svnet::kernels
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svnet::kernels {
+
+HWY_EXPORT(bias_clamp_rows);
+
+void apply(const Epilogue<float>& epilogue, Index rows, Index columns, Index stride, float* y) {
+  if (epilogue.empty()) return;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  HWY_DYNAMIC_DISPATCH(bias_clamp_rows)
+  (epilogue.bias, epilogue.clamp == Clamp::none ? -kInfinity : 0.0f, epilogue.clamp == Clamp::relu6 ? 6.0f : kInfinity,
+   rows, columns, stride, y);
+}
+
+template <class T>
+void apply_reference(const Epilogue<T>& epilogue, Index rows, Index columns, Index stride, T* y) {
+  for (Index row = 0; row < rows; ++row)
+    for (Index c = 0; c < columns; ++c) {
+      T& value = y[row * stride + c];
+      if (epilogue.bias != nullptr) value += epilogue.bias[c];
+      if (epilogue.clamp != Clamp::none && value < T{0}) value = T{0};
+      if (epilogue.clamp == Clamp::relu6 && value > T{6}) value = T{6};
+    }
+}
+template void apply_reference<float>(const Epilogue<float>&, Index, Index, Index, float*);
+template void apply_reference<double>(const Epilogue<double>&, Index, Index, Index, double*);
+
+}  // namespace svnet::kernels
+#endif

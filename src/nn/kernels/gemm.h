@@ -1,0 +1,29 @@
+#pragma once
+#include "base/index.h"
+#include "base/parallel.h"
+#include "nn/kernels/epilogue.h"
+
+namespace svnet::kernels {
+
+/// c (m, n) = a (m, k) · b (k, n), row-major; a is stored (k, m) with transpose_a, b (n, k) with transpose_b.
+/// Leading dimensions 0 mean dense rows. With accumulate, c += a · b.
+struct GemmShape {
+  Index m = 0, n = 0, k = 0;
+  bool transpose_a = false, transpose_b = false, accumulate = false;
+  Index lda = 0, ldb = 0, ldc = 0;
+};
+
+/// On the calling thread, by OpenBLAS. T is float or double.
+template <class T>
+void gemm_serial(const GemmShape& shape, const T* a, const T* b, T* c);
+
+/// Cut into tiles of c whose size depends on the shape alone: the same bits for any number of threads. The epilogue is
+/// applied to each tile as soon as it is done.
+template <class T>
+void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c, const Epilogue<T>& epilogue = {});
+
+/// Three plain loops, sums in order of k: the test oracle.
+template <class T>
+void gemm_reference(const GemmShape& shape, const T* a, const T* b, T* c);
+
+}  // namespace svnet::kernels

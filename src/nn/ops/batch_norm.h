@@ -1,0 +1,27 @@
+#pragma once
+#include "nn/tensor.h"
+
+namespace svnet::ops {
+
+/// How moving statistics follow the batch's.
+/// keras: moving = momentum · moving + (1 − momentum) · batch, with the biased variance (momentum near 1).
+/// pytorch: moving = (1 − momentum) · moving + momentum · batch, with the unbiased variance (momentum near 0).
+enum class MomentumConvention { keras, pytorch };
+
+struct BatchNormOptions {
+  double momentum = 0.99;
+  double epsilon = 1e-3;
+  MomentumConvention convention = MomentumConvention::keras;
+};
+
+/// Per channel of the last axis: (x − mean) / √(variance + ε) · gamma + beta with the batch's mean and biased variance.
+/// x is (M, C) or (N, H, W, C), gamma, beta and the moving statistics (C). The moving statistics are updated in place.
+/// At least two rows per channel (Error otherwise): one has no variance.
+Tensor batch_norm_training(const Tensor& x, const Tensor& gamma, const Tensor& beta, Tensor& moving_mean,
+                           Tensor& moving_variance, const BatchNormOptions& options);
+
+/// The same with the given statistics, which receive no gradient; x, gamma and beta do.
+Tensor batch_norm_inference(const Tensor& x, const Tensor& gamma, const Tensor& beta, const Tensor& mean,
+                            const Tensor& variance, double epsilon);
+
+}  // namespace svnet::ops

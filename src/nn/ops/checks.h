@@ -1,0 +1,24 @@
+#pragma once
+#include <initializer_list>
+#include <string>
+
+#include "base/parallel.h"
+#include "nn/tensor.h"
+
+namespace svnet::ops {
+
+/// The pool that operations run on.
+inline Parallel& pool() { return Parallel::shared(); }
+
+/// "8x32x32x4 * 3x3x4x16".
+inline std::string shapes(const Tensor& a, const Tensor& b) {
+  return to_string(a.shape()) + " * " + to_string(b.shape());
+}
+
+/// Throws Error, prefixed by [op], where an operand is an empty handle or the element types differ.
+void check_operands(const char* op, std::initializer_list<Tensor> operands);
+
+/// For operations over the last axis: the number of elements before it. Throws Error where `x` is a scalar.
+Index leading(const char* op, const Tensor& x);
+
+}  // namespace svnet::ops

@@ -1,0 +1,58 @@
+#include "nn/ops/dense.h"
+
+#include "nn/autograd.h"
+#include "nn/kernels/batch_norm/batch_norm.h"
+#include "nn/kernels/gemm.h"
+#include "nn/ops/checks.h"
+
+namespace svnet::ops {
+
+Tensor dense(const Tensor& x, const Tensor& w) {
+  check_operands("dense", {x, w});
+  check(x.rank() == 2 && w.rank() == 2, "[dense] expects rows MxC and a weight CxK, got ", shapes(x, w));
+  check(x.dim(1) == w.dim(0), "[dense] input has ", x.dim(1), " features, weight expects ", w.dim(0), " (",
+        shapes(x, w), ")");
+  const Index m = x.dim(0), c = x.dim(1), k = w.dim(1);
+  Tensor y = Tensor::empty({m, k}, x.dtype());
+  with_dtype(x.dtype(), [&]<class T>() {
+    kernels::gemm(pool(), {.m = m, .n = k, .k = c}, x.data<T>(), w.data<T>(), y.data<T>());
+  });
+  return autograd::record(y, {x, w}, [=, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
+    if (g.wants(0)) {
+      Tensor dx = Tensor::empty({m, c}, x.dtype());
+      with_dtype(dy.dtype(), [&]<class T>() {
+        kernels::gemm(pool(), {.m = m, .n = c, .k = k, .transpose_b = true}, dy.data<T>(), w.data<T>(), dx.data<T>());
+      });
+      g.add(0, dx);
+    }
+    if (g.wants(1)) g.add_product(1, x, dy);
+  });
+}
+
+Tensor bias_add(const Tensor& x, const Tensor& bias) {
+  const Index rows = leading("bias_add", x), channels = x.dim(-1);
+  check_operands("bias_add", {x, bias});
+  check(bias.rank() == 1 && bias.dim(0) == channels, "[bias_add] input has ", channels, " channels, bias has ",
+        to_string(bias.shape()));
+  Tensor y = Tensor::empty(x.shape(), x.dtype());
+  with_dtype(x.dtype(), [&]<class T>() {
+    const T *from = x.data<T>(), *b = bias.data<T>();
+    T* to = y.data<T>();
+    pool().for_chunks(rows, 64, [&](Index begin, Index end, int) {
+      for (Index row = begin; row < end; ++row)
+        for (Index c = 0; c < channels; ++c) to[row * channels + c] = from[row * channels + c] + b[c];
+    });
+  });
+  return autograd::record(y, {x, bias}, [=](const Tensor& dy, autograd::Gradients& g) {
+    if (g.wants(1)) {
+      Tensor db = Tensor::empty({channels}, dy.dtype());
+      with_dtype(dy.dtype(), [&]<class T>() {
+        kernels::column_sums<T>(pool(), {.rows = rows, .channels = channels}, dy.data<T>(), nullptr, db.data<T>());
+      });
+      g.add(1, db);
+    }
+    g.add(0, dy);
+  });
+}
+
+}  // namespace svnet::ops

@@ -1,0 +1,38 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "nn/autograd.h"
+#include "nn/tensor.h"
+
+namespace svnet {
+
+/// Changes parameters by their gradients. State (moments, velocities) is exposed by name for checkpoints.
+class Optimizer {
+ public:
+  virtual ~Optimizer() = default;
+  /// One step at the given learning rate. Parameters without a gradient stay as they are.
+  virtual void step(const autograd::GradientMap& gradients, double learning_rate) = 0;
+  /// Tensors that must be saved and restored with the parameters, in a fixed order; they follow later steps.
+  virtual std::vector<Tensor> state() const = 0;
+  /// Goes on from a saved state after `done` steps; an empty state is that of the start. Throws Error where the shapes
+  /// are not those of state().
+  void restore(const std::vector<Tensor>& saved, std::int64_t done);
+  /// Steps done so far.
+  std::int64_t steps = 0;
+};
+
+/// Adam in the "ε̂" form of Kingma and Ba (2015, end of section 2), as Keras has it:
+///   m ← β₁m + (1 − β₁)g,  v ← β₂v + (1 − β₂)g²,  θ ← θ − rate · √(1 − β₂ᵗ) / (1 − β₁ᵗ) · m / (√v + ε).
+struct AdamOptions {
+  double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-7;
+};
+std::unique_ptr<Optimizer> adam(std::vector<Tensor> parameters, const AdamOptions& options = {});
+
+/// SGD with momentum as Keras has it: u ← momentum · u − rate · g,  θ ← θ + u.
+struct SgdOptions {
+  double momentum = 0;
+};
+std::unique_ptr<Optimizer> sgd(std::vector<Tensor> parameters, const SgdOptions& options = {});
+
+}  // namespace svnet

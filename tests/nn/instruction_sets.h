@@ -1,0 +1,23 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/cpu.h"
+
+namespace svnet::test {
+
+/// Calls body(name) with the fast kernels capped at each instruction set that the machine has, and lifts the cap.
+template <class Body>
+void for_instruction_sets(Body&& body) {
+  const std::vector<std::string> names = instruction_sets();
+  struct Lift {
+    const std::string& best;
+    ~Lift() { cap_instruction_set(best); }
+  } lift{names.front()};
+  for (const std::string& name : names) {
+    cap_instruction_set(name);
+    body(name);
+  }
+}
+
+}  // namespace svnet::test
