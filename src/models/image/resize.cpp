@@ -1,0 +1,142 @@
+#include "models/image/resize.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace svnet {
+namespace {
+
+constexpr Index kChannels = 3;
+constexpr int kPrecisionBits = 22;  // 32, less 8 for the pixel and 2 for the sum of weights
+
+/// The source index of each target index. The position is summed up step by step, as Pillow does, so that ties fall
+/// alike.
+std::vector<Index> nearest_sources(Index from, Index to) {
+  std::vector<Index> sources(static_cast<std::size_t>(to));
+  const double step = static_cast<double>(from) / static_cast<double>(to);
+  double position = step * 0.5;
+  for (Index& source : sources) {
+    source = std::min(static_cast<Index>(position), from - 1);
+    position += step;
+  }
+  return sources;
+}
+
+Image resized_nearest(const Image& image, Index height, Index width) {
+  const std::vector<Index> rows = nearest_sources(image.height, height), columns = nearest_sources(image.width, width);
+  Image result{height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * width * kChannels))};
+  std::uint8_t* out = result.rgb.data();
+  for (const Index row : rows) {
+    const std::uint8_t* in = image.rgb.data() + row * image.width * kChannels;
+    for (const Index column : columns) out = std::copy_n(in + column * kChannels, kChannels, out);
+  }
+  return result;
+}
+
+/// The triangle filter along one axis: target i is the sum over t < counts[i] of weights[i * taps + t] · source
+/// [starts[i] + t], with weights in units of 2^-22 that add up to about 1.
+struct Filter {
+  Index taps;
+  std::vector<Index> starts, counts;
+  std::vector<std::int32_t> weights;
+};
+
+/// Pillow's precompute_coeffs and normalize_coeffs_8bpc, operation by operation.
+Filter triangle_filter(Index from, Index to) {
+  const double scale = static_cast<double>(from) / static_cast<double>(to);
+  const double support = std::max(scale, 1.0);
+  Filter filter{static_cast<Index>(std::ceil(support)) * 2 + 1, {}, {}, {}};
+  filter.weights.resize(static_cast<std::size_t>(to * filter.taps));
+  std::vector<double> taps(static_cast<std::size_t>(filter.taps));
+  for (Index i = 0; i < to; ++i) {
+    const double centre = (static_cast<double>(i) + 0.5) * scale;
+    const Index start = std::max<Index>(static_cast<Index>(centre - support + 0.5), 0);
+    const Index count = std::min(static_cast<Index>(centre + support + 0.5), from) - start;
+    double sum = 0;
+    for (Index t = 0; t < count; ++t) {
+      const double distance = std::abs((static_cast<double>(t + start) - centre + 0.5) * (1.0 / support));
+      taps[t] = distance < 1 ? 1 - distance : 0;
+      sum += taps[t];
+    }
+    for (Index t = 0; t < count; ++t) {
+      const double weight = sum != 0 ? taps[t] / sum : taps[t];
+      filter.weights[i * filter.taps + t] = static_cast<std::int32_t>(0.5 + weight * (1 << kPrecisionBits));
+    }
+    filter.starts.push_back(start);
+    filter.counts.push_back(count);
+  }
+  return filter;
+}
+
+std::uint8_t rounded(std::int32_t sum) {
+  return static_cast<std::uint8_t>(std::clamp((sum + (1 << (kPrecisionBits - 1))) >> kPrecisionBits, 0, 255));
+}
+
+Image with_width(const Image& image, Index width) {
+  const Filter filter = triangle_filter(image.width, width);
+  Image result{image.height, width,
+               std::vector<std::uint8_t>(static_cast<std::size_t>(image.height * width * kChannels))};
+  std::uint8_t* out = result.rgb.data();
+  for (Index row = 0; row < image.height; ++row) {
+    const std::uint8_t* in = image.rgb.data() + row * image.width * kChannels;
+    for (Index column = 0; column < width; ++column) {
+      const std::int32_t* weights = filter.weights.data() + column * filter.taps;
+      const std::uint8_t* pixel = in + filter.starts[column] * kChannels;
+      std::int32_t red = 0, green = 0, blue = 0;
+      for (Index t = 0; t < filter.counts[column]; ++t, pixel += kChannels) {
+        red += weights[t] * pixel[0];
+        green += weights[t] * pixel[1];
+        blue += weights[t] * pixel[2];
+      }
+      *out++ = rounded(red), *out++ = rounded(green), *out++ = rounded(blue);
+    }
+  }
+  return result;
+}
+
+Image with_height(const Image& image, Index height) {
+  const Filter filter = triangle_filter(image.height, height);
+  const Index row_size = image.width * kChannels;
+  Image result{height, image.width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * row_size))};
+  std::vector<std::int32_t> sums(static_cast<std::size_t>(row_size));
+  for (Index row = 0; row < height; ++row) {
+    std::fill(sums.begin(), sums.end(), 0);
+    for (Index t = 0; t < filter.counts[row]; ++t) {
+      const std::int32_t weight = filter.weights[row * filter.taps + t];
+      const std::uint8_t* in = image.rgb.data() + (filter.starts[row] + t) * row_size;
+      for (Index i = 0; i < row_size; ++i) sums[i] += weight * in[i];
+    }
+    std::transform(sums.begin(), sums.end(), result.rgb.begin() + row * row_size, rounded);
+  }
+  return result;
+}
+
+}  // namespace
+
+std::string name_of(Interpolation interpolation) {
+  return interpolation == Interpolation::nearest ? "nearest" : "bilinear";
+}
+
+Interpolation interpolation_named(std::string_view name) {
+  for (const Interpolation known : {Interpolation::nearest, Interpolation::bilinear})
+    if (name == name_of(known)) return known;
+  const std::vector<std::string> names{"nearest", "bilinear"};
+  fail("interpolation '", name, "' is not known", suggestion(name, names));
+}
+
+Image resized(const Image& image, Index height, Index width, Interpolation interpolation) {
+  check(image.height > 0 && image.width > 0 && height > 0 && width > 0, "[resize] cannot make a ", height, "x", width,
+        " image of a ", image.height, "x", image.width, " image: every side must be at least 1");
+  check(static_cast<Index>(image.rgb.size()) == image.height * image.width * kChannels, "[resize] a ", image.height,
+        "x", image.width, "x3 image has ", image.rgb.size(), " values, expected ",
+        image.height * image.width * kChannels);
+  if (interpolation == Interpolation::nearest) return resized_nearest(image, height, width);
+  // A side that stays is not filtered; as in Pillow, that changes no pixel.
+  if (image.width == width) return image.height == height ? image : with_height(image, height);
+  return image.height == height ? with_width(image, width) : with_height(with_width(image, width), height);
+}
+
+}  // namespace svnet

@@ -1,0 +1,41 @@
+#include "models/registry.h"
+
+#include "base/text.h"
+#include "models/mobilenet.h"
+#include "models/mobilenet_v2.h"
+
+namespace svnet {
+
+const std::vector<BackboneKind>& backbone_kinds() {
+  static const Preprocessing tf{.mode = PixelMode::tf, .height = 224, .width = 224};
+  static const std::vector<BackboneKind> kinds{
+      {"mobilenet",
+       "global_average_pooling2d",
+       tf,
+       models::mobilenet,
+       {"mobilenet_1_0_224_tf_no_top.h5", "mobilenet_1_0_224_tf.h5"}},
+      {"mobilenet_v2",
+       "global_average_pooling2d",
+       tf,
+       models::mobilenet_v2,
+       {"mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224_no_top.h5",
+        "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5"}},
+  };
+  return kinds;
+}
+
+const BackboneKind& backbone_kind(const std::string& name) {
+  std::vector<std::string> names;
+  for (const auto& kind : backbone_kinds()) {
+    if (kind.name == name) return kind;
+    names.push_back(kind.name);
+  }
+  fail("[backbone] there is no backbone '", name, "'", suggestion(name, names));
+}
+
+NodeId output_layer(const BackboneKind& kind, const Graph& graph, const std::string& layer) {
+  const bool pooled = layer.empty() || layer == "avg_pool" || layer == "global_average_pooling2d";
+  return graph.find(pooled ? kind.pooled : layer);
+}
+
+}  // namespace svnet

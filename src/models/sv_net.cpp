@@ -1,0 +1,67 @@
+#include "models/sv_net.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "base/text.h"
+#include "models/layers.h"
+
+namespace svnet {
+namespace {
+
+NodeId dropped(Graph& g, const std::string& name, NodeId x, double rate) {
+  return rate > 0 ? g.add(name, DropoutLayer{rate}, {x}) : x;
+}
+
+/// Fully connected layer, batch norm, activation; named prefix_fc, prefix_bn, prefix_relu.
+NodeId dense_block(Graph& g, const std::string& prefix, NodeId x, Index units) {
+  x = g.add(prefix + "_fc", DenseLayer{.units = units}, {x});
+  x = models::batch_norm(g, prefix + "_bn", x);
+  return models::activation(g, prefix + "_relu", x, Activation::relu);
+}
+
+}  // namespace
+
+const char* name_of(AngleEncoding encoding) { return encoding == AngleEncoding::radians ? "radians" : "sphere"; }
+
+AngleEncoding angle_encoding_named(const std::string& text) {
+  const std::vector<std::string> names{"radians", "sphere"};
+  if (text == names[0]) return AngleEncoding::radians;
+  check(text == names[1], "[sv_net] there is no angle encoding '", text, "'", suggestion(text, names));
+  return AngleEncoding::sphere;
+}
+
+Index angle_count(AngleEncoding encoding) { return encoding == AngleEncoding::radians ? 2 : 3; }
+
+void encode_angles(AngleEncoding encoding, double theta_deg, double phi_deg, float* encoded) {
+  const double theta = theta_deg * std::numbers::pi / 180, phi = phi_deg * std::numbers::pi / 180;
+  if (encoding == AngleEncoding::radians) {
+    encoded[0] = static_cast<float>(theta - std::numbers::pi);
+    encoded[1] = static_cast<float>(phi - std::numbers::pi);
+  } else {
+    encoded[0] = static_cast<float>(std::cos(phi) * std::cos(theta));
+    encoded[1] = static_cast<float>(std::cos(phi) * std::sin(theta));
+    encoded[2] = static_cast<float>(std::sin(phi));
+  }
+}
+
+Graph sv_net(const SvNetOptions& o) {
+  Graph g;
+  NodeId x = g.input("features", {o.features});
+  const NodeId angles = g.input("angles", {angle_count(o.angles)});
+  x = dense_block(g, "mlp1_1", x, o.width);
+  x = dropped(g, "mlp1_2_drop", x, o.dropout);
+  x = dense_block(g, "mlp1_2", x, o.width);
+  x = g.add("concat", ConcatLayer{}, {x, angles});
+  x = dropped(g, "mlp2_1_drop", x, o.dropout);
+  x = dense_block(g, "mlp2_1", x, o.width);
+  x = dropped(g, "mlp2_2_drop", x, o.dropout);
+  x = dense_block(g, "mlp2_2", x, o.width);
+  x = dropped(g, "mlp2_3_drop", x, o.dropout);
+  x = g.add("mlp2_3_fc", DenseLayer{.units = 1}, {x});
+  x = models::batch_norm(g, "mlp2_3_bn", x);
+  models::activation(g, "score", x, Activation::sigmoid);
+  return g;
+}
+
+}  // namespace svnet

@@ -1,0 +1,32 @@
+#pragma once
+#include <string>
+
+#include "nn/graph/graph.h"
+
+namespace svnet {
+
+/// How a camera pose is fed. radians: θ − π, φ − π. sphere: the unit viewing direction (cos φ cos θ, cos φ sin θ, sin
+/// φ).
+enum class AngleEncoding { radians, sphere };
+const char* name_of(AngleEncoding);
+/// Throws Error for an unknown name.
+AngleEncoding angle_encoding_named(const std::string& name);
+
+/// How many numbers an encoded pose has.
+Index angle_count(AngleEncoding);
+/// Writes angle_count numbers.
+void encode_angles(AngleEncoding, double theta_deg, double phi_deg, float* encoded);
+
+struct SvNetOptions {
+  Index features = 25088;
+  Index width = 4096;
+  double dropout = 0.75;
+  AngleEncoding angles = AngleEncoding::radians;
+};
+
+/// The two MLPs of SV-net (Guérin et al., "Semantically Meaningful View Selection", IROS 2018): inputs `features`
+/// (features) and `angles` (angle_count), output `score` (1) in (0, 1). Dropout is a layer only where its rate is not
+/// 0.
+Graph sv_net(const SvNetOptions& options);
+
+}  // namespace svnet
