@@ -1,0 +1,118 @@
+#include "io/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_write(const fs::path& path, int error) {
+  fail(path.string(), ": cannot be written: ", std::generic_category().message(error));
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// Devices and folders would be lost, or fail only after the work: they are refused first.
+void check_target(const fs::path& path) {
+  check(path.has_filename(), "'", path.string(), "': not the name of a file; give one that can be written");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  check(!fs::is_directory(status), path.string(), ": cannot be written: it is a folder; give the name of a file");
+  check(!fs::exists(status) || fs::is_regular_file(status), path.string(),
+        ": cannot be written: it exists and is not a regular file; give another name");
+  const fs::path folder = folder_of(path);
+  const fs::file_status folder_status = fs::status(folder, error);
+  check(folder_status.type() != fs::file_type::not_found, path.string(), ": cannot be written: the folder ",
+        folder.string(), " does not exist; create it first");
+}
+
+/// A file of ours beside the target that is removed unless it was renamed away.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& target) {
+    static std::atomic<unsigned> counter{0};
+    for (;;) {
+      path_ = folder_of(target) / joined(".svnet-", ::getpid(), "-", counter++, ".tmp");
+      const Descriptor file(::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
+      if (file.number() >= 0) return;
+      if (errno != EEXIST) fail_to_write(target, errno);
+    }
+  }
+  ~Temporary() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  void sync_and_rename(const fs::path& target) {
+    {
+      const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+      if (file.number() < 0 || ::fsync(file.number()) != 0) fail_to_write(target, errno);
+    }
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(target, errno);
+    path_.clear();
+  }
+
+ private:
+  fs::path path_;
+};
+
+/// Makes the rename last. A folder that may be written but not read, or whose file system syncs no folders, is left to
+/// the system: the file is complete either way.
+void sync_folder(const fs::path& target) {
+  const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() < 0) return;
+  if (::fsync(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
+}
+
+void write_all(const fs::path& target, const fs::path& temporary, std::string_view contents) {
+  const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0) fail_to_write(target, errno);
+  while (!contents.empty()) {
+    const ssize_t written = ::write(file.number(), contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_to_write(target, errno);
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
+  check_target(path);
+  Temporary temporary(path);
+  write(temporary.path());
+  temporary.sync_and_rename(path);
+  sync_folder(path);
+}
+
+void write_atomically(const fs::path& path, std::string_view contents) {
+  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, contents); });
+}
+
+}  // namespace svnet

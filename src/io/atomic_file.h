@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string_view>
+
+namespace svnet {
+
+/// Replaces the file `path` as a whole: readers, and a machine that loses power, see the old file or the new one, never
+/// a part. A new, empty temporary file in the same folder (its name begins with a dot) is handed to `write`, which
+/// fills it and closes it; it is then synced to disk and renamed to `path`, and the folder is synced. If anything
+/// throws, the temporary is removed and `path` is left as it was.
+///
+/// `path` must not exist or be a regular file; a symbolic link is replaced, not followed. Throws Error that names
+/// `path` and says what the system said; exceptions of `write` pass through.
+void write_atomically(const std::filesystem::path& path,
+                      const std::function<void(const std::filesystem::path& temporary)>& write);
+
+/// The same for contents that are in memory.
+void write_atomically(const std::filesystem::path& path, std::string_view contents);
+
+}  // namespace svnet

@@ -1,0 +1,43 @@
+#include "io/checkpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/tensor_file.h"
+
+namespace svnet {
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  TensorFile file;
+  file.description() = {{"kind", "checkpoint"},
+                        {"input_fingerprint", checkpoint.input_fingerprint},
+                        {"epoch", checkpoint.epoch},
+                        {"steps", checkpoint.steps},
+                        {"best_loss", checkpoint.best_loss},
+                        {"metrics", checkpoint.metrics}};
+  file.add("head", checkpoint.parameters);
+  for (std::size_t i = 0; i < checkpoint.optimizer.size(); ++i)
+    file.add("optimizer/" + std::to_string(i), checkpoint.optimizer[i]);
+  file.write(path);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph,
+                           const std::vector<Tensor>& optimizer) {
+  const TensorFile file = TensorFile::read(path, "checkpoint");
+  Checkpoint checkpoint{.input_fingerprint = file.get<std::string>("input_fingerprint"),
+                        .epoch = file.get<Index>("epoch"),
+                        .steps = file.get<Index>("steps"),
+                        .best_loss = file.get<double>("best_loss"),
+                        .metrics = file.get<std::string>("metrics"),
+                        .parameters = file.parameters("head", graph),
+                        .optimizer = {}};
+  for (std::size_t i = 0; i < optimizer.size(); ++i)
+    checkpoint.optimizer.push_back(file.at("optimizer/" + std::to_string(i), optimizer[i].shape()));
+  return checkpoint;
+}
+
+std::string read_checkpoint_fingerprint(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  return TensorFile::read(path, "checkpoint").get<std::string>("input_fingerprint");
+}
+
+}  // namespace svnet

@@ -1,0 +1,43 @@
+#pragma once
+#include <array>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/index.h"
+
+namespace svnet {
+
+/// Where features come from.
+struct FeaturesOrigin {
+  std::string backbone;             // the model's name
+  std::string output;               // the layer whose output they are
+  std::string preprocessing;        // how an image becomes the model's input
+  std::string weights_sha256;       // of the weights file
+  std::string dataset_fingerprint;  // of the images
+  std::string input_fingerprint;    // of everything that the values depend on: features with the same one are the same
+};
+
+/// The features of every image of a dataset; row i belongs to paths[i].
+struct Features : FeaturesOrigin {
+  Index count = 0;
+  Index dimension = 0;
+  std::vector<float> values;                         // (count, dimension)
+  std::vector<std::array<double, 2>> theta_phi_deg;  // (count)
+  std::vector<std::string> paths;                    // (count) as the dataset names its images
+};
+
+// HDF5. Datasets: `features` (N, D) float32, `th_ph` (N, 2) float64, degrees, `paths` (N) UTF-8. Attributes of the
+// root: the members of FeaturesOrigin, by these names.
+
+/// Throws Error that names the file, the dataset and the row unless shapes agree, there is at least one value and all
+/// are finite.
+Features read_features(const std::filesystem::path& path);
+
+/// The attributes alone, for deciding whether features can be used again.
+FeaturesOrigin read_features_origin(const std::filesystem::path& path);
+
+/// Replaces the file as a whole. Throws Error where read_features would.
+void write_features(const std::filesystem::path& path, const Features& features);
+
+}  // namespace svnet

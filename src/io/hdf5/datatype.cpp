@@ -1,0 +1,106 @@
+#include "datatype.h"
+
+#include <array>
+
+#include "base/error.h"
+#include "handle.h"
+
+namespace svnet::hdf5 {
+namespace {
+
+/// IEEE 754 binary16, which HDF5 1.10 has no name for: bit positions and bias as h5py stores NumPy's float16.
+bool is_float16(hid_t type) {
+  const Handle half(H5Tcopy(H5T_IEEE_F32LE), H5Tclose);
+  H5Tset_fields(half.id(), 15, 10, 5, 0, 10);
+  H5Tset_size(half.id(), 2);
+  H5Tset_ebias(half.id(), 15);
+  if (H5Tequal(type, half.id()) > 0) return true;
+  H5Tset_order(half.id(), H5T_ORDER_BE);
+  return H5Tequal(type, half.id()) > 0;
+}
+
+bool is_ieee_float(hid_t type, std::size_t size) {
+  if (size == 2) return is_float16(type);
+  if (size == 4) return H5Tequal(type, H5T_IEEE_F32LE) > 0 || H5Tequal(type, H5T_IEEE_F32BE) > 0;
+  return size == 8 && (H5Tequal(type, H5T_IEEE_F64LE) > 0 || H5Tequal(type, H5T_IEEE_F64BE) > 0);
+}
+
+bool is_whole_integer(hid_t type, std::size_t size) {
+  return (size == 1 || size == 2 || size == 4 || size == 8) && H5Tget_precision(type) == 8 * size &&
+         H5Tget_offset(type) == 0;
+}
+
+std::string class_name(H5T_class_t type_class) {
+  switch (type_class) {
+    case H5T_INTEGER:
+      return "integer of unusual layout";
+    case H5T_FLOAT:
+      return "float of unusual layout";
+    case H5T_BITFIELD:
+      return "bit field";
+    case H5T_OPAQUE:
+      return "opaque";
+    case H5T_COMPOUND:
+      return "compound";
+    case H5T_REFERENCE:
+      return "reference";
+    case H5T_ENUM:
+      return "enumeration";
+    case H5T_VLEN:
+      return "variable-length sequence";
+    case H5T_ARRAY:
+      return "array";
+    default:
+      return "unknown type";
+  }
+}
+
+/// Length of the UTF-8 sequence that starts with `lead`, and the range of its second byte; length 0: none starts so.
+struct Sequence {
+  std::size_t length;
+  unsigned char second_low, second_high;
+};
+
+Sequence sequence_of(unsigned char lead) {
+  if (lead < 0x80) return {1, 0, 0};
+  if (lead < 0xC2) return {0, 0, 0};
+  if (lead < 0xE0) return {2, 0x80, 0xBF};
+  if (lead == 0xE0) return {3, 0xA0, 0xBF};
+  if (lead == 0xED) return {3, 0x80, 0x9F};
+  if (lead < 0xF0) return {3, 0x80, 0xBF};
+  if (lead == 0xF0) return {4, 0x90, 0xBF};
+  if (lead < 0xF4) return {4, 0x80, 0xBF};
+  if (lead == 0xF4) return {4, 0x80, 0x8F};
+  return {0, 0, 0};
+}
+
+}  // namespace
+
+ElementType element_type(hid_t type) {
+  const H5T_class_t type_class = H5Tget_class(type);
+  const std::size_t size = H5Tget_size(type);
+  if (type_class == H5T_FLOAT && is_ieee_float(type, size)) return {Kind::real, size, joined("float", 8 * size)};
+  if (type_class == H5T_INTEGER && is_whole_integer(type, size)) {
+    if (H5Tget_sign(type) == H5T_SGN_NONE) return {Kind::unsigned_integer, size, joined("uint", 8 * size)};
+    return {Kind::signed_integer, size, joined("int", 8 * size)};
+  }
+  if (type_class == H5T_STRING)
+    return {H5Tis_variable_str(type) > 0 ? Kind::variable_text : Kind::fixed_text, size, "string"};
+  return {Kind::other, size, class_name(type_class)};
+}
+
+bool is_plain_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const Sequence sequence = sequence_of(static_cast<unsigned char>(text[i]));
+    if (sequence.length == 0 || text[i] == 0 || text.size() - i < sequence.length) return false;
+    for (std::size_t j = 1; j < sequence.length; ++j) {
+      const auto byte = static_cast<unsigned char>(text[i + j]);
+      const bool second = j == 1;
+      if (byte < (second ? sequence.second_low : 0x80) || byte > (second ? sequence.second_high : 0xBF)) return false;
+    }
+    i += sequence.length;
+  }
+  return true;
+}
+
+}  // namespace svnet::hdf5

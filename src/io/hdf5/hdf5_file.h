@@ -1,0 +1,89 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/index.h"
+
+namespace svnet {
+namespace hdf5 {
+struct File;  // the open file, private to this folder
+}
+
+/// Values in row-major order; an empty shape is a single value.
+template <class T>
+struct Hdf5Array {
+  std::vector<Index> shape;
+  std::vector<T> values;
+};
+
+/// An HDF5 file that is read, or one that is written. Objects are named by their path from the root, "a/b/c"; "" is the
+/// root group.
+///
+/// Damaged files throw Error. Only hard links are followed; external and virtual datasets, filters other than gzip and
+/// shuffle, plug-ins, and sizes that the file cannot hold are refused. Text must be UTF-8 without NUL. Everything that
+/// goes wrong throws Error with the file, the object and the innermost message of the HDF5 library, which prints
+/// nothing itself. Headers are decoded by the library: a file that was made to exploit its flaws is not kept from it.
+/// Not thread-safe: one thread at a time may use one file. A file that is written cannot be read before it is closed.
+///
+/// A written file holds no times: the same calls give the same bytes. Its metadata carry checksums (HDF5 1.8 format).
+class Hdf5File {
+ public:
+  static Hdf5File open(const std::filesystem::path& path);
+  /// Replaces the file at `path`. Errors call it `name_in_messages` where that is given (for temporary files).
+  static Hdf5File create(const std::filesystem::path& path, const std::string& name_in_messages = {});
+  /// Closes; what was written is only known to be in the file after close().
+  ~Hdf5File();
+  Hdf5File(Hdf5File&&) noexcept;
+  Hdf5File& operator=(Hdf5File&&) noexcept;
+
+  /// Throws Error if anything could not be written. Nothing else may be called afterwards.
+  void close();
+
+  /// The file as errors call it.
+  const std::string& name() const;
+
+  bool has(const std::string& object) const;
+  bool is_group(const std::string& object) const;
+  /// The names in a group, in natural order.
+  std::vector<std::string> members(const std::string& group) const;
+
+  std::vector<Index> shape(const std::string& dataset) const;
+  /// T: float (from float16, 32 and 64), double (from any float or integer), std::int64_t and std::uint64_t (from
+  /// integers that fit), std::string (from strings of fixed or variable length).
+  template <class T>
+  Hdf5Array<T> read(const std::string& dataset) const;
+
+  bool has_attribute(const std::string& object, const std::string& name) const;
+  /// A single string.
+  std::string text_attribute(const std::string& object, const std::string& name) const;
+  /// A list of strings; an empty list may be of any type, as h5py writes it.
+  std::vector<std::string> text_list_attribute(const std::string& object, const std::string& name) const;
+  /// A single number, T: double, std::int64_t or std::uint64_t, as `read` converts them.
+  template <class T>
+  T number_attribute(const std::string& object, const std::string& name) const;
+
+  /// Groups on the way are created; so they are by `write`.
+  void create_group(const std::string& group);
+  /// T: float, double, std::int64_t, std::uint64_t, std::string (variable length, UTF-8, as h5py writes them). The
+  /// dataset must be new; `values` holds as many as the shape says.
+  template <class T>
+  void write(const std::string& dataset, const std::vector<Index>& shape, std::span<const T> values);
+
+  /// Attributes must be new and their object must exist.
+  void write_text_attribute(const std::string& object, const std::string& name, const std::string& value);
+  void write_text_list_attribute(const std::string& object, const std::string& name,
+                                 std::span<const std::string> values);
+  /// T: double, std::int64_t, std::uint64_t.
+  template <class T>
+  void write_number_attribute(const std::string& object, const std::string& name, T value);
+
+ private:
+  explicit Hdf5File(std::unique_ptr<hdf5::File> state);
+  std::unique_ptr<hdf5::File> state_;
+};
+
+}  // namespace svnet

@@ -1,0 +1,90 @@
+#include <csetjmp>
+#include <cstdio>
+
+#include <jerror.h>
+#include <jpeglib.h>
+
+#include "base/error.h"
+#include "image_codecs.h"
+
+namespace svnet {
+namespace {
+
+/// libjpeg with errors that come back here instead of ending the process, and warnings that mean lost pixels counted as
+/// errors: libjpeg itself fills the missing part of a file with grey and says so on stderr only.
+///
+/// The functions that call setjmp hold no objects with destructors, which longjmp would skip.
+class JpegDecoder {
+ public:
+  explicit JpegDecoder(Bytes file) : file_(file) {}
+  ~JpegDecoder() { jpeg_destroy_decompress(&jpeg_); }
+  JpegDecoder(const JpegDecoder&) = delete;
+  JpegDecoder& operator=(const JpegDecoder&) = delete;
+
+  bool read_header() {
+    jpeg_.err = jpeg_std_error(&errors_.base);
+    errors_.base.error_exit = [](j_common_ptr jpeg) { give_up(jpeg); };
+    errors_.base.emit_message = [](j_common_ptr jpeg, int level) {
+      if (level < 0 && loses_pixels(jpeg->err->msg_code)) give_up(jpeg);
+    };
+    if (setjmp(errors_.back) != 0) return false;
+    jpeg_create_decompress(&jpeg_);
+    jpeg_mem_src(&jpeg_, file_.data(), file_.size());
+    jpeg_read_header(&jpeg_, TRUE);
+    return true;
+  }
+
+  Index height() const { return jpeg_.image_height; }
+  Index width() const { return jpeg_.image_width; }
+  int channels() const { return jpeg_.num_components; }
+  const char* reason() const { return errors_.message; }
+
+  /// Decodes to the last marker of the file. rgb (height, width, 3).
+  bool read_pixels(std::uint8_t* rgb) {
+    if (setjmp(errors_.back) != 0) return false;
+    jpeg_.out_color_space = JCS_RGB;
+    jpeg_start_decompress(&jpeg_);
+    while (jpeg_.output_scanline < jpeg_.output_height) {
+      JSAMPROW row = rgb + std::size_t{jpeg_.output_scanline} * jpeg_.output_width * 3;
+      jpeg_read_scanlines(&jpeg_, &row, 1);
+    }
+    jpeg_finish_decompress(&jpeg_);
+    return true;
+  }
+
+ private:
+  struct Errors {
+    jpeg_error_mgr base;  // first, so that libjpeg's pointer to it is a pointer to Errors
+    std::jmp_buf back;
+    char message[JMSG_LENGTH_MAX];
+  };
+
+  [[noreturn]] static void give_up(j_common_ptr jpeg) {
+    auto* errors = reinterpret_cast<Errors*>(jpeg->err);
+    errors->base.format_message(jpeg, errors->message);
+    std::longjmp(errors->back, 1);
+  }
+
+  /// Warnings about unusual headers and bytes between segments leave every pixel as it was meant.
+  static bool loses_pixels(int warning) {
+    return warning != JWRN_EXTRANEOUS_DATA && warning != JWRN_ADOBE_XFORM && warning != JWRN_JFIF_MAJOR;
+  }
+
+  Bytes file_;
+  Errors errors_{};
+  jpeg_decompress_struct jpeg_{};
+};
+
+}  // namespace
+
+Image decode_jpeg(const std::string& name, Bytes file) {
+  JpegDecoder decoder(file);
+  if (!decoder.read_header()) fail_damaged(name, "JPEG", decoder.reason());
+  check(decoder.channels() == 1 || decoder.channels() == 3, name, ": is a JPEG picture with ", decoder.channels(),
+        " colour channels, expected 1 (grey) or 3; convert it to RGB");
+  Image image = image_of_size(name, decoder.height(), decoder.width());
+  if (!decoder.read_pixels(image.rgb.data())) fail_damaged(name, "JPEG", decoder.reason());
+  return image;
+}
+
+}  // namespace svnet

@@ -1,0 +1,32 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "models/backbone.h"
+
+namespace svnet {
+
+/// What became of every layer with weights, in a weights file and in the graph.
+struct KerasLoadReport {
+  std::vector<std::string> loaded;  // graph layers that were filled, "block_1_expand"
+  std::vector<std::string>
+      unused;  // layers of the file above the last one that the graph has: a top that was not asked for
+};
+
+/// The parameters of `graph` up to `output` from a Keras file, legacy layout or Keras 3. Layers are matched by position
+/// among those with weights, in the order of Keras' model.layers (keras_order); Keras 3 files by class and counter in
+/// the same order. Shapes are checked; a name in the file that belongs to another layer of the graph means that the
+/// order is wrong. Throws Error that names file and layers for anything missing, unexpected or of another shape.
+Parameters read_keras_parameters(const std::filesystem::path& path, const Graph& graph, NodeId output,
+                                 KerasLoadReport* report = nullptr);
+
+/// The backbone with the weights of the file, and with its top where the file has one.
+Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer = "",
+                       KerasLoadReport* report = nullptr);
+
+/// The file of the backbone's weights in a folder, by the names under which Keras publishes them. Throws Error that
+/// lists them where there is none.
+std::filesystem::path find_weights(const BackboneKind& kind, const std::filesystem::path& folder);
+
+}  // namespace svnet

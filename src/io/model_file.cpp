@@ -1,0 +1,96 @@
+#include "io/model_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/graph_json.h"
+#include "io/tensor_file.h"
+
+namespace svnet {
+namespace {
+
+using nlohmann::json;
+
+json preprocessing_to_json(const Preprocessing& p) {
+  return {{"pixels", name_of(p.mode)},
+          {"height", p.height},
+          {"width", p.width},
+          {"interpolation", name_of(p.interpolation)},
+          {"channels", "RGB"}};
+}
+
+Preprocessing preprocessing_from_json(const json& from) {
+  const Preprocessing p{.mode = pixel_mode_named(from.at("pixels").get<std::string>()),
+                        .height = from.at("height").get<Index>(),
+                        .width = from.at("width").get<Index>(),
+                        .interpolation = interpolation_named(from.at("interpolation").get<std::string>())};
+  check(from.at("channels") == "RGB", "channels are ", from.at("channels").dump(), ", expected RGB");
+  check(p.height > 0 && p.width > 0 && p.height <= 8192 && p.width <= 8192, "input size ", p.height, "x", p.width,
+        " is out of range");
+  return p;
+}
+
+/// The layers that the output needs, and their parameters.
+Graph cut_at(const Graph& graph, const std::string& output) {
+  const auto needed = graph.ancestors({graph.find(output)});
+  Graph part;
+  for (std::size_t i = 0; i < needed.size(); ++i) {
+    if (!needed[i]) continue;
+    const GraphNode& node = graph.nodes()[i];
+    std::vector<NodeId> inputs;
+    for (NodeId id : node.inputs) inputs.push_back(part.find(graph.node(id).name));
+    part.add(node.name, node.layer, inputs);
+  }
+  return part;
+}
+
+void add_parameters(TensorFile& file, const std::string& prefix, const Graph& graph, const Parameters& parameters) {
+  for (const auto& node : graph.nodes())
+    for (const auto& spec : node.parameters)
+      file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
+}
+
+}  // namespace
+
+void write_model(const std::filesystem::path& path, const Model& model) {
+  const Graph backbone = cut_at(model.backbone_graph, model.backbone_output);
+  TensorFile file;
+  file.description() = {
+      {"kind", "model"},
+      {"backbone", {{"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}}},
+      {"preprocessing", preprocessing_to_json(model.preprocessing)},
+      {"head", {{"graph", graph_to_json(model.head)}}},
+      {"angles", {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}},
+      {"input_fingerprint", model.input_fingerprint}};
+  add_parameters(file, "backbone", backbone, model.backbone_parameters);
+  add_parameters(file, "head", model.head, model.head_parameters);
+  file.write(path);
+}
+
+Model read_model(const std::filesystem::path& path) {
+  const TensorFile file = TensorFile::read(path, "model");
+  Model model;
+  try {
+    const json backbone = file.get<json>("backbone"), head = file.get<json>("head");
+    model.backbone = backbone.at("name").get<std::string>();
+    model.backbone_output = backbone.at("output").get<std::string>();
+    model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
+    model.preprocessing = preprocessing_from_json(file.get<json>("preprocessing"));
+    model.head = graph_from_json(head.at("graph"), "head");
+    model.angles = angle_encoding_named(file.get<json>("angles").at("encoding").get<std::string>());
+    model.input_fingerprint = file.get<std::string>("input_fingerprint");
+    const Shape& features = model.backbone_graph.node(model.backbone_graph.find(model.backbone_output)).shape;
+    const auto inputs = model.head.inputs();
+    check(inputs.size() == 2 && model.head.node(inputs[0]).shape == Shape{element_count(features)} &&
+              model.head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&
+              model.head.node(model.head.output()).shape == Shape{1},
+          "the head does not take the backbone's ", element_count(features),
+          " features and the angles, or gives more than one score");
+  } catch (const std::exception& error) {
+    fail(path.string(), ": ", error.what());
+  }
+  model.backbone_parameters = file.parameters("backbone", model.backbone_graph);
+  model.head_parameters = file.parameters("head", model.head);
+  return model;
+}
+
+}  // namespace svnet

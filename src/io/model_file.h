@@ -1,0 +1,35 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "models/image/preprocessing.h"
+#include "models/sv_net.h"
+#include "nn/graph/parameters.h"
+
+namespace svnet {
+
+/// SV-net with the backbone that feeds it: from a top image and camera poses to scores.
+struct Model {
+  std::string backbone;         // "mobilenet"
+  std::string backbone_output;  // the layer whose flattened output feeds the head
+  Preprocessing preprocessing;  // of the top image
+  Graph backbone_graph;
+  Parameters backbone_parameters;
+  AngleEncoding angles = AngleEncoding::radians;
+  Graph head;  // as sv_net() makes it
+  Parameters head_parameters;
+  std::string input_fingerprint;  // of everything that the numbers depend on
+};
+
+// A TensorFile of kind "model": tensors "backbone/<layer>/<parameter>" and "head/<layer>/<parameter>"; description
+// {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels", "height", "width", "interpolation",
+// "channels"}, "head": {"graph"}, "angles": {"encoding", "unit", "order"}, "input_fingerprint"}.
+
+/// Replaces the file as a whole. Layers of the backbone above its output are left out.
+void write_model(const std::filesystem::path& path, const Model& model);
+
+/// Throws Error that names the file and what is wrong with it.
+Model read_model(const std::filesystem::path& path);
+
+}  // namespace svnet

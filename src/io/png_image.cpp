@@ -1,0 +1,108 @@
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <vector>
+
+#include <png.h>
+
+#include "base/error.h"
+#include "image_codecs.h"
+
+namespace svnet {
+namespace {
+
+/// libpng with errors that come back here and warnings (about colour profiles, mostly) that go nowhere. It checks the
+/// CRC of every chunk that matters, and reading to the end chunk shows that the file is whole.
+///
+/// The functions that call setjmp hold no objects with destructors, which longjmp would skip.
+class PngDecoder {
+ public:
+  explicit PngDecoder(Bytes file) : rest_(file) {
+    png_ = png_create_read_struct(
+        PNG_LIBPNG_VER_STRING, this,
+        [](png_structp png, png_const_charp message) {
+          auto* decoder = static_cast<PngDecoder*>(png_get_error_ptr(png));
+          std::snprintf(decoder->message_, sizeof decoder->message_, "%s", message);
+          std::longjmp(decoder->back_, 1);
+        },
+        [](png_structp, png_const_charp) {});
+    info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+    check(info_ != nullptr, "libpng cannot be used: not enough memory, or another version than at compile time");
+  }
+  ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
+  PngDecoder(const PngDecoder&) = delete;
+  PngDecoder& operator=(const PngDecoder&) = delete;
+
+  bool read_header() {
+    if (setjmp(back_) != 0) return false;
+    png_set_read_fn(png_, this, [](png_structp png, png_bytep out, std::size_t size) {
+      auto* decoder = static_cast<PngDecoder*>(png_get_io_ptr(png));
+      if (size > decoder->rest_.size()) png_error(png, "the file ends too early");
+      std::memcpy(out, decoder->rest_.data(), size);
+      decoder->rest_ = decoder->rest_.subspan(size);
+    });
+    png_read_info(png_, info_);
+    return true;
+  }
+
+  Index height() const { return png_get_image_height(png_, info_); }
+  Index width() const { return png_get_image_width(png_, info_); }
+  const char* reason() const { return message_; }
+
+  /// rows: the addresses of height rows of (width, 3) bytes.
+  bool read_pixels(std::uint8_t** rows) {
+    if (setjmp(back_) != 0) return false;
+    const int color = png_get_color_type(png_, info_);
+    png_set_strip_16(png_);
+    if (color == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
+    if ((color & PNG_COLOR_MASK_COLOR) == 0) {
+      png_set_expand_gray_1_2_4_to_8(png_);
+      png_set_gray_to_rgb(png_);
+    }
+    png_set_strip_alpha(png_);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    if (png_get_rowbytes(png_, info_) != std::size_t{3} * png_get_image_width(png_, info_))
+      png_error(png_, "its pixels cannot be turned into RGB");
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
+ private:
+  Bytes rest_;
+  png_structp png_ = nullptr;
+  png_infop info_ = nullptr;
+  std::jmp_buf back_;
+  char message_[200] = "";
+};
+
+}  // namespace
+
+Image decode_png(const std::string& name, Bytes file) {
+  PngDecoder decoder(file);
+  if (!decoder.read_header()) fail_damaged(name, "PNG", decoder.reason());
+  Image image = image_of_size(name, decoder.height(), decoder.width());
+  std::vector<std::uint8_t*> rows(static_cast<std::size_t>(image.height));
+  for (Index row = 0; row < image.height; ++row) rows[row] = image.rgb.data() + row * image.width * 3;
+  if (!decoder.read_pixels(rows.data())) fail_damaged(name, "PNG", decoder.reason());
+  return image;
+}
+
+std::string encoded_png(const std::string& name, const Image& image) {
+  check(image.height > 0 && image.width > 0 && static_cast<Index>(image.rgb.size()) == image.height * image.width * 3,
+        name, ": cannot be written: a ", image.height, "x", image.width, "x3 image has ", image.rgb.size(), " values");
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  png.format = PNG_FORMAT_RGB;
+  png.height = static_cast<png_uint_32>(image.height);
+  png.width = static_cast<png_uint_32>(image.width);
+  png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
+  std::string file(size, '\0');
+  check(png_image_write_to_memory(&png, file.data(), &size, 0, image.rgb.data(), 0, nullptr) != 0, name,
+        ": cannot be written: ", png.message);
+  file.resize(size);
+  return file;
+}
+
+}  // namespace svnet

@@ -1,0 +1,49 @@
+#pragma once
+#include <filesystem>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "nn/graph/parameters.h"
+
+namespace svnet {
+
+/// A safetensors file of ours: F32 tensors, and one JSON value that says what they are, kept as the entry "svnet" of
+/// the format's metadata.
+class TensorFile {
+ public:
+  /// `kind` ("model", "checkpoint") must be the description's "kind", and "format" the number that this version writes.
+  /// Throws Error that names the file.
+  static TensorFile read(const std::filesystem::path& path, const std::string& kind);
+
+  TensorFile();
+  TensorFile(TensorFile&&) noexcept;
+  TensorFile& operator=(TensorFile&&) noexcept;
+  ~TensorFile();
+
+  nlohmann::json& description() { return *description_; }
+  /// A member of the description. Throws Error that names file and member where it is missing or of another type.
+  template <class T>
+  T get(const std::string& member) const;
+
+  void add(const std::string& name, const Tensor& tensor);
+  /// Every parameter as "prefix/name".
+  void add(const std::string& prefix, const Parameters& parameters);
+  /// Throws Error that names the file and the tensor where it is missing or has another shape.
+  const Tensor& at(const std::string& name, const Shape& shape) const;
+  /// All parameters of the graph; the trainable ones are leaves of the tape.
+  Parameters parameters(const std::string& prefix, const Graph& graph) const;
+
+  /// Replaces the file as a whole; "format" is added to the description.
+  void write(const std::filesystem::path& path) const;
+
+  const std::string& path() const { return path_; }
+
+ private:
+  std::string path_;
+  std::unique_ptr<nlohmann::json> description_;
+  std::vector<std::pair<std::string, Tensor>> tensors_;
+};
+
+}  // namespace svnet

@@ -1,0 +1,32 @@
+#include <webp/decode.h>
+
+#include "base/error.h"
+#include "image_codecs.h"
+
+namespace svnet {
+namespace {
+
+/// What the header says the file has: the RIFF chunk's length and the 8 bytes before it.
+std::uint64_t stated_size(Bytes file) {
+  return (std::uint64_t{file[4]} | std::uint64_t{file[5]} << 8 | std::uint64_t{file[6]} << 16 |
+          std::uint64_t{file[7]} << 24) +
+         8;
+}
+
+}  // namespace
+
+Image decode_webp(const std::string& name, Bytes file) {
+  if (stated_size(file) > file.size())
+    fail_damaged(name, "WebP", joined("it has ", file.size(), " bytes of ", stated_size(file)));
+  WebPBitstreamFeatures features;
+  if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK)
+    fail_damaged(name, "WebP", "its header cannot be read");
+  check(features.has_animation == 0, name, ": is an animated WebP, expected a single picture");
+  Image image = image_of_size(name, features.height, features.width);
+  if (!WebPDecodeRGBInto(file.data(), file.size(), image.rgb.data(), image.rgb.size(),
+                         static_cast<int>(image.width * 3)))
+    fail_damaged(name, "WebP", "its pixels cannot be decoded");
+  return image;
+}
+
+}  // namespace svnet

@@ -1,0 +1,108 @@
+#include "io/atomic_file.h"
+
+#include <catch2/catch.hpp>
+#include <csignal>
+#include <fstream>
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+namespace fs = std::filesystem;
+
+namespace {
+std::size_t entries(const fs::path& folder) {
+  return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), fs::directory_iterator()));
+}
+}  // namespace
+
+TEST_CASE("a file is written, then replaced, and nothing else stays") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "model.safetensors";
+  write_atomically(path, std::string_view("first\0one", 9));
+  CHECK(file_contents(path) == std::string("first\0one", 9));
+  write_atomically(path, [&](const fs::path& temporary) {
+    CHECK(temporary.parent_path() == folder.path());
+    CHECK(temporary.filename().string().front() == '.');
+    CHECK(file_contents(path).size() == 9);  // readers still see the old file
+    std::ofstream(temporary) << "second";
+  });
+  CHECK(file_contents(path) == "second");
+  CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("a new file gets the permissions that the umask leaves") {
+  const TemporaryFolder folder;
+  const mode_t before = ::umask(027);
+  write_atomically(folder.path() / "a", "x");
+  ::umask(before);
+  CHECK(fs::status(folder.path() / "a").permissions() == fs::perms(0640));
+}
+
+TEST_CASE("a writer that throws leaves the old file and no temporary") {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("scores.h5", "old");
+  CHECK_THROWS_WITH(write_atomically(path,
+                                     [](const fs::path& temporary) {
+                                       std::ofstream(temporary) << "half";
+                                       fail("no more scores");
+                                     }),
+                    "no more scores");
+  CHECK(file_contents(path) == "old");
+  CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("targets that cannot be written are refused by name before any work") {
+  const TemporaryFolder folder;
+  const auto never = [](const fs::path&) { FAIL("the writer was called"); };
+  CHECK_THROWS_WITH(write_atomically(folder.path(), never),
+                    folder.path().string() + ": cannot be written: it is a folder; give the name of a file");
+  const fs::path missing = folder.path() / "none";
+  CHECK_THROWS_WITH(write_atomically(missing / "a", never), (missing / "a").string() +
+                                                                ": cannot be written: the folder " + missing.string() +
+                                                                " does not exist; create it first");
+  CHECK_THROWS_WITH(write_atomically("/dev/null", never),
+                    "/dev/null: cannot be written: it exists and is not a regular file; give another name");
+  const fs::path file = folder.write("file", "");
+  CHECK_THROWS_WITH(write_atomically(file / "a", never),
+                    (file / "a").string() + ": cannot be written: Not a directory");
+  CHECK_THROWS_WITH(write_atomically("", never), "'': not the name of a file; give one that can be written");
+}
+
+TEST_CASE("a folder without write permission is an error that says so") {
+  if (::geteuid() == 0) {
+    WARN("skipped: root may write everywhere");
+    return;
+  }
+  const TemporaryFolder folder;
+  fs::permissions(folder.path(), fs::perms(0500));
+  CHECK_THROWS_WITH(write_atomically(folder.path() / "a", "x"),
+                    (folder.path() / "a").string() + ": cannot be written: Permission denied");
+  fs::permissions(folder.path(), fs::perms(0700));
+}
+
+TEST_CASE("a disk that takes no more is an error that names the target and leaves no temporary") {
+  // A limit on the size of files fails in the middle of the contents, as a full disk does.
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("big", "old");
+  rlimit before;
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{1000, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::string message;
+  try {
+    write_atomically(path, std::string(5000, 'x'));
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(message == path.string() + ": cannot be written: File too large");
+  CHECK(file_contents(path) == "old");
+  CHECK(entries(folder.path()) == 1);
+}

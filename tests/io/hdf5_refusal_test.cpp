@@ -1,0 +1,197 @@
+// Files that HDF5 itself would read, made with its C interface, and that Hdf5File must not.
+#include <array>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+
+#include <hdf5.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "io/hdf5/hdf5_file.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+using Catch::Contains;
+
+namespace {
+
+/// A file in the making, through the C interface. Identifiers are closed with the file.
+class RawFile {
+ public:
+  explicit RawFile(const std::filesystem::path& path) {
+    const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG);
+    id_ = H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    H5Pclose(access);
+    REQUIRE(id_ >= 0);
+  }
+  ~RawFile() { H5Fclose(id_); }
+  hid_t id() const { return id_; }
+
+  hid_t dataset(const char* name, std::vector<hsize_t> dims, hid_t type, hid_t creation = H5P_DEFAULT) const {
+    const hid_t space = H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr);
+    const hid_t made = H5Dcreate2(id_, name, type, space, H5P_DEFAULT, creation, H5P_DEFAULT);
+    REQUIRE(made >= 0);
+    return made;
+  }
+  void floats(const char* name, hid_t creation = H5P_DEFAULT) const {
+    const std::array<float, 64> values{};
+    REQUIRE(H5Dwrite(dataset(name, {64}, H5T_IEEE_F32LE, creation), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                     values.data()) >= 0);
+  }
+
+ private:
+  hid_t id_;
+};
+
+hid_t chunked(hsize_t chunk) {
+  const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+  H5Pset_chunk(creation, 1, &chunk);
+  return creation;
+}
+
+}  // namespace
+
+TEST_CASE("links are not followed, except hard ones") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "links.h5";
+  {
+    const RawFile other(folder.path() / "other.h5");
+    other.floats("x");
+  }
+  {
+    const RawFile file(path);
+    file.floats("x");
+    H5Lcreate_hard(file.id(), "x", file.id(), "hard", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_soft("/x", file.id(), "soft", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external("other.h5", "/x", file.id(), "external", H5P_DEFAULT, H5P_DEFAULT);
+    H5Lcreate_external("other.h5", "/", file.id(), "folder", H5P_DEFAULT, H5P_DEFAULT);
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  CHECK(file.read<float>("hard").values.size() == 64);
+  for (const char* name : {"soft", "external", "folder", "folder/x"})
+    CHECK_THROWS_WITH(file.read<float>(name),
+                      Contains("'" + std::string(name) + "'") && Contains("reached through a soft or external link"));
+}
+
+TEST_CASE("values outside the file are not read") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "outside.h5";
+  folder.write("secret", std::string(256, 'x'));
+  {
+    const RawFile file(path);
+    const hid_t external = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_external(external, (folder.path() / "secret").c_str(), 0, 256);
+    file.dataset("external", {64}, H5T_IEEE_F32LE, external);
+    file.floats("x");
+    const hsize_t size = 64;
+    const hid_t space = H5Screate_simple(1, &size, nullptr), virtuals = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_virtual(virtuals, space, ".", "/x", space);
+    file.dataset("virtual", {64}, H5T_IEEE_F32LE, virtuals);
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  CHECK_THROWS_WITH(file.read<float>("external"), Contains("dataset 'external': has its values in another file"));
+  CHECK_THROWS_WITH(file.read<float>("virtual"), Contains("dataset 'virtual': is a virtual dataset"));
+}
+
+TEST_CASE("filters other than gzip and shuffle are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "filters.h5";
+  {
+    const RawFile file(path);
+    const hid_t checksum = chunked(16), scale = chunked(16), fine = chunked(16);
+    H5Pset_fletcher32(checksum);
+    H5Pset_scaleoffset(scale, H5Z_SO_FLOAT_DSCALE, 2);
+    H5Pset_shuffle(fine);
+    H5Pset_deflate(fine, 9);
+    file.floats("checksum", checksum);
+    file.floats("scale", scale);
+    file.floats("fine", fine);
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  CHECK(file.read<float>("fine").values == std::vector<float>(64));
+  CHECK_THROWS_WITH(file.read<float>("checksum"), Contains("filter number 3, which is not supported"));
+  CHECK_THROWS_WITH(file.read<float>("scale"), Contains("filter number 6, which is not supported"));
+}
+
+TEST_CASE("sizes that the file cannot hold are refused before memory is taken") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "sizes.h5";
+  {
+    const RawFile file(path);
+    const hsize_t huge = hsize_t{1} << 40;
+    file.dataset("huge", {huge}, H5T_IEEE_F32LE);
+    file.dataset("product", {huge >> 8, huge >> 8, huge >> 8}, H5T_IEEE_F32LE);
+    file.dataset("never_written", {1 << 20}, H5T_IEEE_F32LE);
+    file.dataset("chunks", {1 << 20}, H5T_IEEE_F32LE, chunked(16));
+    const hid_t gzip = chunked(1 << 28);
+    H5Pset_deflate(gzip, 9);
+    file.dataset("large_chunk", {1 << 28}, H5T_IEEE_F32LE, gzip);
+    const hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, std::size_t{1} << 30);
+    file.dataset("long_text", {100}, text);
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  CHECK_THROWS_WITH(file.read<float>("huge"), Contains("dataset 'huge': declares a dimension of 1099511627776"));
+  CHECK_THROWS_WITH(file.read<float>("product"), Contains("dataset 'product': declares more than"));
+  CHECK_THROWS_WITH(file.read<float>("never_written"), Contains("declares 4194304 bytes but only 0 are stored"));
+  CHECK_THROWS_WITH(file.read<float>("chunks"), Contains("declares 4194304 bytes but only 0 are stored"));
+  CHECK_THROWS_WITH(file.read<float>("large_chunk"), Contains("declares chunks that a file of"));
+  CHECK_THROWS_WITH(file.read<std::string>("long_text"), Contains("declares 100 values of 1073741824 bytes"));
+}
+
+TEST_CASE("many rows that share one long string are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "shared.h5";
+  constexpr hsize_t kRows = 1000;
+  {
+    const RawFile file(path);
+    const hid_t text = H5Tcopy(H5T_C_S1);
+    H5Tset_size(text, H5T_VARIABLE);
+    const std::string first(100'000, 'x'), other = "another";
+    std::vector<const char*> values(kRows, other.c_str());
+    values[0] = first.c_str();
+    H5Dwrite(file.dataset("texts", {kRows}, text), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
+  }
+  CHECK(Hdf5File::open(path).read<std::string>("texts").values[999] == "another");
+  // A row is 16 bytes: length, address of the heap, number in the heap. All rows become the first.
+  std::string bytes = file_contents(path);
+  const std::string length("\xa0\x86\x01\x00", 4);
+  const std::size_t row = bytes.find(length);
+  REQUIRE(row != std::string::npos);
+  for (std::size_t i = 1; i < kRows; ++i) bytes.replace(row + 16 * i, 16, bytes.substr(row, 16));
+  const Hdf5File shared = Hdf5File::open(folder.write("shared.h5", bytes));
+  CHECK_THROWS_WITH(shared.read<std::string>("texts"),
+                    Contains("shared.h5: dataset 'texts': its strings are longer than the file"));
+}
+
+TEST_CASE("HDF5 prints nothing of its own, and its printing is left as it was") {
+  H5E_auto2_t before = nullptr, after = nullptr;
+  void *before_data = nullptr, *after_data = nullptr;
+  H5Eget_auto2(H5E_DEFAULT, &before, &before_data);
+  REQUIRE(before != nullptr);
+  const TemporaryFolder folder;
+  const auto log = folder.path() / "stderr";
+  const int saved = ::dup(2);
+  REQUIRE(std::freopen(log.c_str(), "w", stderr));
+  std::string message;
+  try {
+    Hdf5File::create(folder.path()).close();
+  } catch (const Error& error) {
+    message = error.what();
+  }
+  std::fflush(stderr);
+  ::dup2(saved, 2);
+  ::close(saved);
+  CHECK_THAT(message, Contains("cannot be written: "));
+  CHECK(file_contents(log).empty());
+  H5Eget_auto2(H5E_DEFAULT, &after, &after_data);
+  CHECK(before == after);
+}
+
+TEST_CASE("plug-ins are not loaded") {
+  Hdf5File::open(SVNET_FIXTURES "/io/h5py.h5");
+  unsigned state = 1;
+  REQUIRE(H5PLget_loading_state(&state) >= 0);
+  CHECK(state == 0);
+}

@@ -1,0 +1,139 @@
+#include <catch2/catch.hpp>
+#include <cstdio>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "io/image_file.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+namespace fs = std::filesystem;
+
+namespace {
+const fs::path kPictures = SVNET_FIXTURES "/pictures";
+
+/// What read_image says, without the path that it begins with; "" where it reads.
+std::string refusal(const fs::path& path) {
+  try {
+    read_image(path);
+  } catch (const Error& error) {
+    const std::string message = error.what(), start = path.string() + ": ";
+    INFO(message);
+    REQUIRE(message.substr(0, start.size()) == start);
+    REQUIRE(message.find('\n') == std::string::npos);
+    return message.substr(start.size());
+  }
+  return "";
+}
+
+/// Sends stderr to a file for its lifetime.
+class CapturedStderr {
+ public:
+  explicit CapturedStderr(const fs::path& path) : before_(::dup(2)) {
+    const int file = ::open(path.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
+    ::dup2(file, 2);
+    ::close(file);
+  }
+  ~CapturedStderr() {
+    std::fflush(stderr);
+    ::dup2(before_, 2);
+    ::close(before_);
+  }
+
+ private:
+  int before_;
+};
+}  // namespace
+
+TEST_CASE("what is no picture is refused with its reason") {
+  const TemporaryFolder folder;
+  CHECK(refusal(folder.path() / "none.png") == "no such file");
+  CHECK(refusal(folder.path()) == "is a folder, expected a picture (PNG, JPEG or WebP)");
+  CHECK(refusal("/dev/null") == "is not a regular file, expected a picture");
+  CHECK(refusal(folder.write("empty.png", "")) == "is empty, expected a picture (PNG, JPEG or WebP)");
+  CHECK(refusal(folder.write("notes.png", "not a picture\n")) ==
+        "is not a PNG, JPEG or WebP picture, whatever its name says");
+  CHECK(refusal(kPictures / "cmyk.jpg") ==
+        "is a JPEG picture with 4 colour channels, expected 1 (grey) or 3; convert it to RGB");
+  CHECK(refusal(kPictures / "animated.webp") == "is an animated WebP, expected a single picture");
+}
+
+TEST_CASE("a picture that may not be read is refused with the system's reason") {
+  if (::geteuid() == 0) {
+    WARN("skipped: root may read everything");
+    return;
+  }
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("a.png", "x");
+  fs::permissions(path, fs::perms::none);
+  CHECK(refusal(path) == "cannot be read: Permission denied");
+}
+
+TEST_CASE("a picture cut short anywhere is refused, quietly") {
+  const TemporaryFolder folder;
+  const fs::path noise = folder.path() / "stderr.txt";
+  for (const char* name : {"rgb.png", "palette.png", "rgb16.png", "rgb.jpg", "progressive.jpg", "grey.jpg",
+                           "lossy.webp", "lossless.webp", "alpha.webp"}) {
+    CAPTURE(name);
+    const std::string whole = file_contents(kPictures / name);
+    std::size_t read = 0;
+    {
+      const CapturedStderr captured(noise);
+      for (std::size_t size = 0; size < whole.size(); ++size)
+        read += refusal(folder.write("cut", std::string_view(whole).substr(0, size))).empty();
+    }
+    CHECK(read == 0);
+    CHECK(file_contents(noise).empty());
+  }
+}
+
+TEST_CASE("a cut picture says so") {
+  const TemporaryFolder folder;
+  const auto cut = [&](const char* name, std::size_t bytes) {
+    const std::string whole = file_contents(kPictures / name);
+    return refusal(folder.write(name, std::string_view(whole).substr(0, whole.size() - bytes)));
+  };
+  CHECK(cut("rgb.jpg", 2) == "is a damaged or incomplete JPEG picture (Premature end of JPEG file); replace the file");
+  CHECK(cut("rgb.png", 5) == "is a damaged or incomplete PNG picture (the file ends too early); replace the file");
+  CHECK(cut("lossy.webp", 5) == "is a damaged or incomplete WebP picture (it has 195 bytes of 200); replace the file");
+}
+
+TEST_CASE("a PNG with any changed byte of its pixels is refused") {
+  const TemporaryFolder folder;
+  const std::string whole = file_contents(kPictures / "rgb.png");
+  const std::size_t start = whole.find("IDAT"), end = whole.find("IEND") - 4;
+  REQUIRE(end < whole.size());
+  for (std::size_t i = start; i < end; ++i) {
+    std::string damaged = whole;
+    damaged[i] ^= 0x20;
+    CAPTURE(i);
+    CHECK_THAT(refusal(folder.write("a.png", damaged)), Catch::StartsWith("is a damaged or incomplete PNG picture ("));
+  }
+}
+
+TEST_CASE("a JPEG whose code breaks off inside is refused") {
+  const TemporaryFolder folder;
+  const std::string whole = file_contents(kPictures / "rgb.jpg");
+  const std::string joined_ends = whole.substr(0, whole.size() - 60) + whole.substr(whole.size() - 2);
+  CHECK(refusal(folder.write("a.jpg", joined_ends)) ==
+        "is a damaged or incomplete JPEG picture (Corrupt JPEG data: premature end of data segment); replace the file");
+}
+
+TEST_CASE("a picture too large is refused by its header alone") {
+  const TemporaryFolder folder;
+  // Only headers: 20000 columns of 20000 rows.
+  const std::string png(
+      "\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20\x08\2\0\0\0\x6c\x12\xd1\x6e\0\0\0\0IDAT\x35\xaf\x06\x1e",
+      45);
+  CHECK(refusal(folder.write("a.png", png)) ==
+        "has 20000x20000 pixels, more than the 64 megapixels that are read; make it smaller");
+  std::string jpeg = file_contents(kPictures / "grey.jpg");
+  const std::size_t frame = jpeg.find("\xff\xc0");
+  REQUIRE(frame != std::string::npos);
+  jpeg.replace(frame + 5, 4, "\x4e\x20\x4e\x20");
+  CHECK(refusal(folder.write("a.jpg", jpeg)) ==
+        "has 20000x20000 pixels, more than the 64 megapixels that are read; make it smaller");
+}

@@ -1,0 +1,125 @@
+#include "io/view_dataset.h"
+
+#include <catch2/catch.hpp>
+#include <set>
+
+#include "shared_folder.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+namespace fs = std::filesystem;
+
+namespace {
+
+std::vector<std::string> paths(const ViewDataset& dataset) {
+  std::vector<std::string> result;
+  for (const View& view : dataset.views) result.push_back(view.path);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("categories, objects, poses and views are numbered in natural order") {
+  const TemporaryFolder folder;
+  for (const char* path :
+       {"mug/10/a/90_90.png", "mug/2/pose10/90_90.png", "mug/2/pose2/90_90.JPG", "mug/2/pose2/45_315.webp",
+        "mug/2/pose2/45_0.png", "mug/2/pose2/45_90.jpeg", "bowl/1/a/90_90.png", "bowl/1/a/0_359.png"})
+    folder.write(path, path);
+  const ViewDataset dataset = read_view_dataset(folder.path());
+  CHECK(dataset.root == folder.path());
+  CHECK(dataset.categories == std::vector<std::string>{"bowl", "mug"});
+  REQUIRE(dataset.objects.size() == 3);
+  CHECK((dataset.objects[0].name == "1" && dataset.objects[0].category == 0));
+  CHECK((dataset.objects[1].name == "2" && dataset.objects[1].category == 1));
+  CHECK((dataset.objects[2].name == "10" && dataset.objects[2].category == 1));
+  REQUIRE(dataset.poses.size() == 4);
+  CHECK(dataset.pose_path(0) == "bowl/1/a");
+  CHECK(dataset.pose_path(1) == "mug/2/pose2");
+  CHECK(dataset.pose_path(2) == "mug/2/pose10");
+  CHECK(dataset.pose_path(3) == "mug/10/a");
+  CHECK((dataset.poses[2].object == 1 && dataset.poses[2].category == 1));
+  CHECK(paths(dataset) == std::vector<std::string>{"bowl/1/a/0_359.png", "bowl/1/a/90_90.png", "mug/2/pose2/45_0.png",
+                                                   "mug/2/pose2/45_90.jpeg", "mug/2/pose2/45_315.webp",
+                                                   "mug/2/pose2/90_90.JPG", "mug/2/pose10/90_90.png",
+                                                   "mug/10/a/90_90.png"});
+  const View& view = dataset.views[4];
+  CHECK((view.category == 1 && view.object == 1 && view.pose == 1));
+  CHECK((view.phi_deg == 45 && view.theta_deg == 315 && !view.top));
+  CHECK(dataset.views[0].phi_deg == 0);
+  CHECK(dataset.views[0].theta_deg == 359);
+  CHECK(dataset.top_view(0) == 1);
+  CHECK(dataset.top_view(1) == 5);
+  CHECK(dataset.top_view(3) == 7);
+  CHECK(dataset.views[5].top);
+  CHECK(dataset.views_of(1).size() == 4);
+  CHECK(&dataset.views_of(1).front() == &dataset.views[2]);
+  CHECK(dataset.views_of(3).front().path == "mug/10/a/90_90.png");
+}
+
+TEST_CASE("hidden names, names with an underscore and files beside the categories are ignored") {
+  const TemporaryFolder folder;
+  for (const char* path :
+       {"mug/1/1/90_90.png", "manifest.json", "_extra/depth.bin", ".git/x", "mug/_note.txt", "mug/.DS_Store",
+        "mug/1/_masks/a.png", "mug/1/1/_overview.png", "mug/1/1/.45_90.png", "mug/1/1/_depth/45_90.png"})
+    folder.write(path, "");
+  CHECK(paths(read_view_dataset(folder.path())) == std::vector<std::string>{"mug/1/1/90_90.png"});
+}
+
+TEST_CASE("paths are relative however the root is written") {
+  const TemporaryFolder folder;
+  folder.write("data/mug/1/1/90_90.png", "");
+  const fs::path before = fs::current_path();
+  fs::current_path(folder.path() / "data");
+  std::vector<std::vector<std::string>> found;
+  for (const fs::path& root : {fs::path("."), fs::path("./"), fs::path("../data"), fs::path("../data/"),
+                               folder.path() / "data" / "", folder.path() / "data" / ".." / "data"})
+    found.push_back(paths(read_view_dataset(root)));
+  fs::current_path(before);
+  for (const auto& views : found) CHECK(views == std::vector<std::string>{"mug/1/1/90_90.png"});
+}
+
+TEST_CASE("the fingerprint changes with every path and content, and with nothing else") {
+  const TemporaryFolder a, b;
+  for (const TemporaryFolder* folder : {&a, &b})
+    for (int theta = 0; theta < 91; ++theta)
+      folder->write("mug/1/1/90_" + std::to_string(theta) + ".png", "picture " + std::to_string(theta));
+  Parallel one(1), three(3);
+  const auto print = [&](const TemporaryFolder& folder, Parallel& parallel) {
+    return fingerprint(read_view_dataset(folder.path()), parallel);
+  };
+  const std::string first = print(a, one);
+  CHECK(first.size() == 64);
+  CHECK(print(b, three) == first);
+  b.write("manifest.json", "{}");
+  CHECK(print(b, three) == first);
+  std::set<std::string> prints{first};
+  b.write("mug/1/1/90_7.png", "picture 8");
+  prints.insert(print(b, three));
+  b.write("mug/1/1/90_8.png", "picture 7");
+  prints.insert(print(b, three));
+  b.write("mug/1/1/90_7.png", "picture 7"), b.write("mug/1/1/90_8.png", "picture 8");
+  CHECK(print(b, three) == first);
+  fs::rename(b.path() / "mug/1/1/90_7.png", b.path() / "mug/1/1/89_7.png");
+  prints.insert(print(b, three));
+  fs::remove(b.path() / "mug/1/1/89_7.png");
+  prints.insert(print(b, three));
+  CHECK(prints.size() == 5);
+  const ViewDataset gone = read_view_dataset(b.path());
+  const fs::path removed = b.path() / "mug/1/1/90_50.png";
+  fs::remove(removed);
+  CHECK_THROWS_WITH(fingerprint(gone, three), removed.string() + ": cannot be read: No such file or directory");
+}
+
+TEST_CASE("ETH-80 is 8 categories of 10 objects of 41 views") {
+  const fs::path root = shared_folder("data/eth80");
+  if (!fs::exists(root)) {
+    WARN("skipped: " << root << " does not exist");
+    return;
+  }
+  const ViewDataset dataset = read_view_dataset(root);
+  CHECK(dataset.categories == std::vector<std::string>{"apple", "car", "cow", "cup", "dog", "horse", "pear", "tomato"});
+  CHECK(dataset.objects.size() == 80);
+  CHECK(dataset.poses.size() == 80);
+  CHECK(dataset.views.size() == 3280);
+  CHECK(dataset.objects[9].name == "10");
+}
