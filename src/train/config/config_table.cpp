@@ -1,0 +1,150 @@
+#include "config_table.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace svnet {
+namespace {
+
+using Names = std::vector<std::string>;
+using std::filesystem::path;
+
+const Names kClusterings{"ward", "average", "complete", "single", "kmeans"};  // in the order of the enumeration
+
+BoundKey whole(std::string name, Index& field, NumberRange range, std::string help) {
+  return {std::move(name), std::move(help), described(range, true),
+          [&field, range](const YamlValue& value, const path&) { field = yaml_whole_number(value, range); },
+          [&field](const path&) { return std::to_string(field); }};
+}
+
+BoundKey number(std::string name, double& field, NumberRange range, std::string help) {
+  return {std::move(name), std::move(help), described(range, false),
+          [&field, range](const YamlValue& value, const path&) { field = yaml_number(value, range); },
+          [&field](const path&) { return written_yaml(field); }};
+}
+
+BoundKey text(std::string name, std::string& field, std::string accepts, std::string help) {
+  return {std::move(name), std::move(help), std::move(accepts),
+          [&field](const YamlValue& value, const path&) { field = yaml_text(value); },
+          [&field](const path&) { return written_yaml(field); }};
+}
+
+/// `choices` in the order of the enumeration.
+template <class Enum>
+BoundKey choice(std::string name, Enum& field, Names choices, std::string help) {
+  const std::string accepts = described(choices);
+  return {std::move(name), std::move(help), accepts,
+          [&field, choices](const YamlValue& value, const path&) {
+            field = static_cast<Enum>(yaml_choice(value, choices));
+          },
+          [&field, choices](const path&) { return written_yaml(choices.at(static_cast<std::size_t>(field))); }};
+}
+
+BoundKey folder_path(std::string name, path& field, std::string accepts, std::string help) {
+  return {std::move(name), std::move(help), std::move(accepts),
+          [&field](const YamlValue& value, const path& folder) {
+            const std::string given = yaml_text(value);
+            field = given.empty() ? path() : (folder / given).lexically_normal();
+            if (!field.empty() && !field.has_filename()) field = field.parent_path();  // "views/" is "views"
+          },
+          [&field](const path& folder) {
+            return written_yaml((folder.empty() || field.empty() ? field : field.lexically_relative(folder)).string());
+          }};
+}
+
+BoundKey names(std::string name, Names& field, std::string help) {
+  return {std::move(name), std::move(help), "a list of names",
+          [&field](const YamlValue& value, const path&) { field = yaml_texts(value); },
+          [&field](const path&) { return written_yaml(field); }};
+}
+
+BoundKey pipelines(std::string name, Names& field, std::string help) {
+  BoundKey key = names(std::move(name), field, std::move(help));
+  key.accepts = "a list of BACKBONE_CLUSTERING";
+  key.read = [&field](const YamlValue& value, const path&) {
+    field = yaml_texts(value);
+    check(!field.empty(), value.where(), ": at least one pipeline is needed, as in [mobilenet_v2_ward]");
+    for (const auto& item : value.items) parse_pipeline(item.text, item.where());
+  };
+  return key;
+}
+
+}  // namespace
+
+std::vector<BoundKey> bound_keys(Config& c) {
+  constexpr NumberRange kNotNegative{.min = 0}, kPositive{.min = 0, .min_open = true}, kFromOne{.min = 1};
+  constexpr NumberRange kBelowOne{.min = 0, .max = 1, .max_open = true};
+  const std::string backbone = "a backbone's name", layer = "a layer's name, or \"\"";
+  return {
+      whole("seed", c.seed, kNotNegative, "Everything random is drawn from this seed."),
+
+      folder_path("dataset.root", c.dataset.root, "a folder, required",
+                  "Folder of the images, CATEGORY/OBJECT/POSE/PHI_THETA.png (or .jpg, .jpeg, .webp)."),
+      names("dataset.held_out", c.dataset.held_out, "Categories that take part neither in the scores nor in training."),
+
+      folder_path("weights.folder", c.weights.folder, "a folder, or \"\"",
+                  "Folder of the pretrained Keras weights. Empty: random weights drawn from the seed."),
+
+      text("scores.backbone", c.scores.backbone, backbone, "Extracts the features that are clustered."),
+      text("scores.layer", c.scores.layer, layer, "The layer whose output is clustered. Empty: the pooled output."),
+      choice("scores.clustering", c.scores.clustering, kClusterings,
+             "The clustering: a linkage of agglomerative clustering, or k-means."),
+      whole("scores.min_samples", c.scores.min_samples, kNotNegative,
+            "Draw problems until every view was in so many of them. 0: no such rule."),
+      whole("scores.problems", c.scores.problems, kNotNegative, "Draw so many problems. 0: no such rule."),
+      number("scores.target_error", c.scores.target_error, kNotNegative,
+             "Draw until the standard error of every score is at most this. 0: no such rule."),
+      whole("scores.min_categories", c.scores.min_categories, {.min = 2}, "Fewest categories of a problem."),
+      whole("scores.max_categories", c.scores.max_categories, kNotNegative, "Most categories of a problem. 0: all."),
+      whole("scores.min_objects", c.scores.min_objects, kFromOne, "Fewest objects of a category in a problem."),
+      whole("scores.max_objects", c.scores.max_objects, kNotNegative,
+            "Most objects of a category in a problem. 0: all."),
+      choice("scores.singletons", c.scores.singletons, {"zero", "skip"},
+             "A view with no pair to count scores zero, or is left out of the individual mean."),
+
+      text("sv_net.backbone", c.sv_net.backbone, backbone, "Extracts the features of the top image; stays frozen."),
+      text("sv_net.layer", c.sv_net.layer, layer, "The layer that feeds the head. Empty: the pooled output."),
+      whole("sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
+      number("sv_net.dropout", c.sv_net.dropout, kBelowOne, "Share of the activations that dropout zeroes."),
+      choice("sv_net.angles", c.sv_net.angles, {"radians", "sphere"},
+             "Angles as radians minus pi (theta, phi), or as the unit viewing direction."),
+      choice("sv_net.target", c.sv_net.target, {"individual", "global"}, "The score that is learnt."),
+
+      whole("training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
+      whole("training.batch_size", c.training.batch_size, {.min = 2}, "Examples of a step."),
+      number("training.learning_rate", c.training.learning_rate, kPositive, "Learning rate at the start."),
+      choice("training.optimizer", c.training.optimizer, {"adam", "sgd"}, "The optimizer."),
+      number("training.momentum", c.training.momentum, kBelowOne, "Momentum; sgd only."),
+      choice("training.schedule", c.training.schedule, {"constant", "step", "cosine"},
+             "How the learning rate changes over the epochs."),
+      whole("training.step_epochs", c.training.step_epochs, kFromOne, "Epochs of one step; schedule step only."),
+      number("training.step_factor", c.training.step_factor, {.min = 0, .max = 1, .min_open = true},
+             "The learning rate is multiplied by this at each step; schedule step only."),
+      whole("training.validation_categories", c.training.validation_categories, kNotNegative,
+            "Random training categories set aside to choose the best checkpoint by. 0: none."),
+
+      whole("evaluation.problems", c.evaluation.problems, kFromOne, "Clustering problems behind each table."),
+      pipelines("evaluation.pipelines", c.evaluation.pipelines,
+                "The pipelines of the tables: a backbone, an underscore and a clustering."),
+      choice("evaluation.nmi", c.evaluation.nmi, {"arithmetic", "geometric"},
+             "The mean that normalises mutual information; geometric is that of the paper's tables."),
+  };
+}
+
+std::string clustering_name(Config::Scores::Clustering clustering) {
+  return kClusterings.at(static_cast<std::size_t>(clustering));
+}
+
+Config::Scores::Clustering clustering_from_name(const std::string& name) {
+  return static_cast<Config::Scores::Clustering>(choice_position("clustering", name, kClusterings));
+}
+
+PipelineName parse_pipeline(const std::string& name, const std::string& where) {
+  const auto at = name.rfind('_');
+  check(at != std::string::npos && at > 0, where, ": '", name,
+        "' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: ", joined_with(", ", kClusterings));
+  return {name.substr(0, at), static_cast<Config::Scores::Clustering>(
+                                  choice_position(where + ": " + name, name.substr(at + 1), kClusterings))};
+}
+
+}  // namespace svnet

@@ -1,0 +1,62 @@
+#pragma once
+#include <limits>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/index.h"
+
+namespace svnet {
+
+/// A strict reading of YAML: one document of mappings, lists and scalars. Keys are names without dots, none twice in a
+/// mapping; anchors, aliases and tags are errors. Every error is one line that begins with where the value stands.
+struct YamlValue {
+  enum class Kind { null, scalar, list, mapping };
+
+  Kind kind = Kind::null;
+  std::string key;                 ///< dotted path from the top, "scores.layer"; an item of a list is "held_out[2]"
+  std::string place;               ///< "configs/demo.yaml:12", or "--set"
+  int line = 0;                    ///< from 1
+  std::string text;                ///< of a scalar
+  bool quoted = false;             ///< a scalar in quotes is text, never a number
+  std::vector<YamlValue> items{};  ///< of a list, or the values of a mapping in the order of the text
+
+  /// "configs/demo.yaml:12: scores.layer", "--set scores.layer"
+  std::string where() const;
+};
+
+/// Reads `text`; `source` is what errors call it. An empty text is null.
+YamlValue parse_yaml(const std::string& text, const std::string& source);
+
+/// Reads the value of a "key=value" override; an empty value is empty text. Errors begin with "--set KEY".
+YamlValue parse_override(const std::string& assignment);
+
+/// The numbers that a key accepts: from min to max, the ends excluded where `open`.
+struct NumberRange {
+  double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
+  bool min_open = false, max_open = false;
+};
+
+/// "a whole number >= 2", "a number >= 0 and < 1"
+std::string described(const NumberRange& range, bool whole);
+/// "one of a, b, c"
+std::string described(std::span<const std::string> choices);
+
+/// The value as a type; throws Error with its place, what it is and what was expected.
+std::string yaml_text(const YamlValue& value);
+/// Also takes 4e7, where that is a whole number.
+Index yaml_whole_number(const YamlValue& value, const NumberRange& range);
+double yaml_number(const YamlValue& value, const NumberRange& range);
+/// The position in `choices` of a name that stands at `where`.
+std::size_t choice_position(const std::string& where, const std::string& name, std::span<const std::string> choices);
+std::size_t yaml_choice(const YamlValue& value, std::span<const std::string> choices);
+/// A list of texts, none twice.
+std::vector<std::string> yaml_texts(const YamlValue& value);
+
+/// A text, a number and a list of texts as parse_yaml reads them back: equal to the last bit.
+std::string written_yaml(std::string_view text);
+std::string written_yaml(double number);
+std::string written_yaml(std::span<const std::string> texts);
+
+}  // namespace svnet

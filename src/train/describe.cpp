@@ -1,0 +1,98 @@
+#include "train/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "base/error.h"
+#include "io/features_file.h"
+#include "io/hdf5/hdf5_file.h"
+#include "io/keras_weights.h"
+#include "io/safetensors.h"
+#include "io/scores_file.h"
+#include "nn/tensor.h"
+
+namespace svnet {
+namespace {
+
+std::string describe_features(const std::filesystem::path& file) {
+  const Features f = read_features(file);
+  return joined("features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ", f.backbone,
+                ", layer ", f.output, "\n  preprocessing  ", f.preprocessing, "\n  weights        ", f.weights_sha256,
+                "\n  dataset        ", f.dataset_fingerprint, "\n  first view     ", f.paths.front(),
+                "\n  last view      ", f.paths.back());
+}
+
+std::string describe_scores(const std::filesystem::path& file) {
+  const Scores s = read_scores(file);
+  std::uint64_t least = ~std::uint64_t{0}, most = 0;
+  double error = 0;
+  std::size_t excluded = 0;
+  for (std::size_t i = 0; i < s.count.size(); ++i) {
+    if (s.count[i] == 0) {
+      ++excluded;
+      continue;
+    }
+    least = std::min(least, s.count[i]);
+    most = std::max(most, s.count[i]);
+    if (std::isfinite(s.standard_error[i])) error = std::max(error, s.standard_error[i]);
+  }
+  return joined("semantic scores of ", s.paths.size(), " views\n  problems        ", s.problems, ", seed ", s.seed,
+                "\n  sampler         ", s.sampler, "\n  clustering      ", s.clustering, ", metric ", s.metric,
+                "\n  views without   ", excluded, "\n  problems a view ",
+                most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error);
+}
+
+void add_layer(std::ostringstream& text, const std::string& name, const std::vector<KerasArray>& arrays, Index& count) {
+  if (arrays.empty()) return;
+  text << "\n  " << name << ":";
+  for (const auto& array : arrays) {
+    text << " " << to_string(array.shape);
+    count += static_cast<Index>(array.values.size());
+  }
+}
+
+std::string describe_weights(const std::filesystem::path& file) {
+  std::ostringstream layers;
+  Index count = 0;
+  const bool legacy = keras_layout(file) == KerasLayout::legacy;
+  if (legacy)
+    for (const auto& layer : read_keras_weights(file)) add_layer(layers, layer.name, layer.arrays, count);
+  else
+    for (const auto& layer : read_keras3_weights(file)) add_layer(layers, layer.path, layer.arrays, count);
+  return joined(legacy ? "Keras weights" : "Keras 3 weights", ", ", count,
+                " numbers; layers and shapes in the order of the file:", layers.str());
+}
+
+std::string describe_safetensors(const std::filesystem::path& file) {
+  const SafetensorsFile f(file);
+  std::ostringstream text;
+  text << "safetensors, " << f.tensors().size() << " tensors";
+  for (const auto& [key, value] : f.metadata())
+    text << "\n  metadata '" << key << "': " << (value.size() > 400 ? value.substr(0, 400) + " …" : value);
+  for (const auto& tensor : f.tensors())
+    text << "\n  " << tensor.name << ": " << tensor.dtype << " " << to_string(tensor.shape);
+  return text.str();
+}
+
+bool is_hdf5(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  check(stream.good(), file.string(), ": cannot be read: no such file, or no permission");
+  char start[8]{};
+  stream.read(start, sizeof start);
+  return std::equal(start, start + 8, "\x89HDF\r\n\x1a\n");
+}
+
+}  // namespace
+
+std::string description_of(const std::filesystem::path& file) {
+  check(!std::filesystem::is_directory(file), file.string(), ": is a folder, expected a file");
+  if (!is_hdf5(file)) return describe_safetensors(file);
+  const Hdf5File hdf5 = Hdf5File::open(file);
+  if (hdf5.has("features")) return describe_features(file);
+  if (hdf5.has("individual")) return describe_scores(file);
+  return describe_weights(file);
+}
+
+}  // namespace svnet

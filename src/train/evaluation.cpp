@@ -1,0 +1,127 @@
+#include "train/evaluation.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+using Metrics = std::array<double, 3>;
+
+/// What one thread works with.
+struct Worker {
+  ClusteringProblem problem;
+  std::vector<Clusterer> clusterers;  // per pipeline
+  Contingency contingency;
+  std::vector<std::int32_t> labels;
+};
+
+Metrics metrics_of(Worker& worker, std::size_t pipeline, const DistanceMatrix& distances, std::uint64_t number,
+                   const EvaluationOptions& options) {
+  const ClusteringProblem& problem = worker.problem;
+  const auto labels = std::span(worker.labels).first(problem.rows.size());
+  worker.clusterers[pipeline].cluster(distances, problem.rows, problem.categories, options.seed, number, labels);
+  worker.contingency.count(problem.labels, labels);
+  return {worker.contingency.fowlkes_mallows(), worker.contingency.normalized_mutual_info(options.nmi),
+          worker.contingency.purity()};
+}
+
+/// Mean and standard error of every `stride`-th value from `first` on.
+Mean mean_of(const std::vector<Metrics>& values, std::size_t first, std::size_t stride, std::size_t metric) {
+  double sum = 0, squares = 0;
+  const auto count = static_cast<double>(values.size() / stride);
+  for (std::size_t i = first; i < values.size(); i += stride) sum += values[i][metric];
+  const double mean = sum / count;
+  for (std::size_t i = first; i < values.size(); i += stride)
+    squares += (values[i][metric] - mean) * (values[i][metric] - mean);
+  return {mean, count > 1 ? std::sqrt(squares / (count - 1) / count) : 0};
+}
+
+}  // namespace
+
+Selector top_selector(const ViewDataset& dataset) {
+  Selector selector{"top", {}};
+  for (const auto& pose : dataset.poses) selector.view.push_back(static_cast<std::int32_t>(pose.top_view));
+  return selector;
+}
+
+Selector random_selector() { return {"rand", {}}; }
+
+Selector best_selector(std::string name, const ViewDataset& dataset, std::span<const double> scores) {
+  check(scores.size() == dataset.views.size(), "[evaluation] ", scores.size(), " scores for ", dataset.views.size(),
+        " views");
+  Selector selector = top_selector(dataset);
+  selector.name = std::move(name);
+  for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
+    const auto& pose = dataset.poses[p];
+    double best = -1;
+    for (Index view = pose.first_view; view < pose.first_view + pose.view_count; ++view)
+      if (scores[static_cast<std::size_t>(view)] > best) {  // false for NaN
+        best = scores[static_cast<std::size_t>(view)];
+        selector.view[p] = static_cast<std::int32_t>(view);
+      }
+  }
+  return selector;
+}
+
+EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& problems,
+                         const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
+                         const EvaluationOptions& options, Parallel& parallel, const Messages& messages,
+                         const std::string& task) {
+  check(problems.poses() == static_cast<Index>(dataset.poses.size()),
+        "[evaluation] the problems are of another dataset");
+  std::vector<Worker> workers;
+  for (int i = 0; i < parallel.threads(); ++i) {
+    Worker worker{problems.new_problem(), {}, Contingency(problems.max_items()), {}};
+    for (const auto& pipeline : pipelines)
+      worker.clusterers.emplace_back(pipeline.clustering, problems.max_items(), problems.max_categories());
+    worker.labels.resize(static_cast<std::size_t>(problems.max_items()));
+    workers.push_back(std::move(worker));
+  }
+
+  const std::size_t stride = pipelines.size() * selectors.size();
+  std::vector<Metrics> values(options.problems * stride);
+  constexpr Index kBlock = 256;
+  Progress progress(messages, task, static_cast<Index>(options.problems));
+  for (Index block = 0; block < static_cast<Index>(options.problems); block += kBlock) {
+    const Index size = std::min(kBlock, static_cast<Index>(options.problems) - block);
+    parallel.for_chunks(size, 4, [&](Index begin, Index end, int number) {
+      Worker& worker = workers[static_cast<std::size_t>(number)];
+      for (Index i = block + begin; i < block + end; ++i) {
+        const auto problem_number = static_cast<std::uint64_t>(i);
+        RandomStream poses(options.seed, Stream::evaluation, problem_number),
+            views(options.seed, Stream::selector, problem_number);
+        problems.draw_poses(poses, worker.problem);
+        for (std::size_t s = 0; s < selectors.size(); ++s) {
+          if (selectors[s].view.empty()) {
+            problems.draw_views(views, worker.problem);
+          } else {
+            worker.problem.rows.clear();
+            for (std::int32_t pose : worker.problem.poses)
+              worker.problem.rows.push_back(selectors[s].view[static_cast<std::size_t>(pose)]);
+          }
+          for (std::size_t p = 0; p < pipelines.size(); ++p)
+            values[problem_number * stride + p * selectors.size() + s] =
+                metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
+        }
+      }
+    });
+    progress.update(block + size);
+  }
+
+  EvaluationTable table;
+  table.problems = options.problems;
+  for (const auto& selector : selectors) table.selectors.push_back(selector.name);
+  for (std::size_t p = 0; p < pipelines.size(); ++p) {
+    table.pipelines.push_back(pipelines[p].name);
+    auto& row = table.cells.emplace_back(selectors.size());
+    for (std::size_t s = 0; s < selectors.size(); ++s)
+      for (std::size_t m = 0; m < kMetricNames.size(); ++m)
+        row[s][m] = mean_of(values, p * selectors.size() + s, stride, m);
+  }
+  return table;
+}
+
+}  // namespace svnet

@@ -1,0 +1,18 @@
+#pragma once
+#include <map>
+#include <string>
+
+#include "train/evaluation.h"
+
+namespace svnet {
+
+/// Tables by split, "training" and "held_out".
+using EvaluationTables = std::map<std::string, EvaluationTable>;
+
+/// One line per pipeline, one column "FM/NMI/purity" per selector, as in the paper; below, the largest standard error.
+std::string table_text(const EvaluationTable& table, const std::string& title);
+
+/// {"format": 1, "problems", "tables": {split: {pipeline: {selector: {metric: {"mean", "standard_error"}}}}}}.
+std::string tables_json(const EvaluationTables& tables);
+
+}  // namespace svnet

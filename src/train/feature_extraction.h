@@ -1,0 +1,30 @@
+#pragma once
+#include "base/progress.h"
+#include "io/features_file.h"
+#include "io/view_dataset.h"
+#include "models/backbone.h"
+
+namespace svnet {
+
+/// Features of every view of the dataset, in its order. Pictures are read and prepared in parallel, then a batch runs
+/// through the backbone; batches have a fixed size, so the result depends on nothing but pictures and weights.
+/// `origin` is copied into the result.
+Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
+                          const Messages& messages);
+
+/// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
+std::string preprocessing_text(const Preprocessing& preprocessing);
+
+/// The backbone with the weights that `folder` holds for it, or seeded random ones where the folder is empty, and a
+/// text that identifies the weights: the file's SHA-256, or "random, seed 7".
+struct BackboneWithOrigin {
+  Backbone backbone;
+  std::string weights;
+};
+BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
+                                        const std::filesystem::path& folder, std::uint64_t seed);
+
+/// The fields of the origin that follow from backbone, weights and pictures, the input fingerprint included.
+FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
+
+}  // namespace svnet

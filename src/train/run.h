@@ -1,0 +1,61 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "base/progress.h"
+#include "io/features_file.h"
+#include "io/model_file.h"
+#include "io/scores_file.h"
+#include "io/view_dataset.h"
+#include "train/config/config.h"
+#include "train/evaluation_text.h"
+#include "train/training_set.h"
+
+namespace svnet {
+
+/// One run: a configuration, its dataset and its folder. Each stage takes what the stages before it left in the folder,
+/// and is not run again while everything it depends on, down to the contents of pictures and weights, is the same:
+/// its file says so by a fingerprint, and the log says which stages were reused.
+///   features-<backbone>[-<layer>].h5 -> scores.h5 -> checkpoint-*.safetensors, metrics.csv, model.safetensors ->
+///   evaluation.json
+class Run {
+ public:
+  /// Hashes the dataset's pictures. The folder is made where it does not exist, and gets the resolved config.yaml.
+  /// Throws Error for a configuration that does not fit the dataset.
+  Run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages);
+
+  const Config& config() const { return config_; }
+  const ViewDataset& dataset() const { return dataset_; }
+  const std::filesystem::path& folder() const { return folder_; }
+
+  /// "" stands for the pooled output.
+  Features features(const std::string& backbone, const std::string& layer);
+  Scores scores();
+
+  enum class Resume { automatic, never };
+  /// Trains, or goes on training where a checkpoint of the same run was left, and writes the model.
+  Model model(Resume resume = Resume::automatic);
+
+  /// Both tables, of training and of held-out categories, and evaluation.json (also copied to `json` where given).
+  EvaluationTables evaluation(std::uint64_t problems, const std::optional<std::filesystem::path>& json = {});
+
+ private:
+  std::filesystem::path features_path(const std::string& backbone, const std::string& layer) const;
+  std::string model_fingerprint(const std::string& features_fingerprint, const std::string& scores_fingerprint) const;
+  void train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume);
+  std::vector<bool> validation_categories() const;
+  std::vector<double> predicted_scores(const Model& model, const Features& features) const;
+  void say(const std::string& line) const;
+
+  Config config_;
+  std::filesystem::path folder_;
+  const Messages& messages_;
+  ViewDataset dataset_;
+  std::vector<bool> held_out_;  // per category
+  std::string dataset_fingerprint_;
+};
+
+/// Every stage once, on a few views of each category, in a folder that is removed again. Throws what a real run would.
+void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages);
+
+}  // namespace svnet

@@ -1,0 +1,125 @@
+#include <algorithm>
+#include <cstdlib>
+#include <map>
+
+#include "base/parallel.h"
+#include "io/atomic_file.h"
+#include "train/clustering_choice.h"
+#include "train/run.h"
+#include "train/scores_stage.h"
+
+namespace svnet {
+namespace {
+
+ViewDataset sample_of(const ViewDataset& whole) {
+  constexpr Index kObjects = 2, kViews = 3;
+  ViewDataset sample;
+  sample.root = whole.root;
+  sample.categories = whole.categories;
+  std::vector<Index> objects_taken(whole.categories.size(), 0);
+  Index last_object = -1;
+  for (const auto& pose : whole.poses) {
+    Index& taken = objects_taken[static_cast<std::size_t>(pose.category)];
+    if (pose.object == last_object || taken == kObjects) continue;
+    last_object = pose.object;
+    ++taken;
+    sample.objects.push_back(whole.objects[static_cast<std::size_t>(pose.object)]);
+    ViewDataset::Pose part = pose;
+    part.object = static_cast<Index>(sample.objects.size()) - 1;
+    part.first_view = static_cast<Index>(sample.views.size());
+    for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
+      const bool top = v == pose.top_view;
+      if (!top && static_cast<Index>(sample.views.size()) - part.first_view >= kViews) continue;
+      View view = whole.views[static_cast<std::size_t>(v)];
+      view.object = part.object;
+      view.pose = static_cast<Index>(sample.poses.size());
+      if (top) part.top_view = static_cast<Index>(sample.views.size());
+      sample.views.push_back(view);
+    }
+    part.view_count = static_cast<Index>(sample.views.size()) - part.first_view;
+    sample.poses.push_back(part);
+  }
+  return sample;
+}
+
+/// A folder of its own under the system's folder for temporary files, removed in the end.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "svnet-dry-run-XXXXXX").string();
+    check(mkdtemp(name.data()) != nullptr, name, ": cannot make a temporary folder");
+    path_ = name;
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optional<std::filesystem::path>& json) {
+  const Model model = this->model();
+  const Scores scores = this->scores();
+  const std::vector<double> predicted =
+      predicted_scores(model, features(config_.sv_net.backbone, config_.sv_net.layer));
+
+  std::map<std::string, std::pair<DistanceMatrix, Index>> distances;  // of each backbone, with its features' dimension
+  std::vector<EvaluationPipeline> pipelines;
+  for (const auto& name : config_.evaluation.pipelines) {
+    const PipelineName parsed = parse_pipeline(name, "evaluation.pipelines");
+    auto found = distances.find(parsed.backbone);
+    if (found == distances.end()) {
+      const Features f =
+          features(parsed.backbone, parsed.backbone == config_.scores.backbone ? config_.scores.layer : std::string());
+      found = distances
+                  .emplace(parsed.backbone,
+                           std::pair(squared_distances(f.values.data(), f.count, f.dimension, Parallel::shared()),
+                                     f.dimension))
+                  .first;
+    }
+    pipelines.push_back({name, &found->second.first, clustering_options(parsed.clustering, found->second.second)});
+  }
+
+  const EvaluationOptions options{.problems = problem_count,
+                                  .seed = static_cast<std::uint64_t>(config_.seed),
+                                  .nmi = config_.evaluation.nmi == Config::Evaluation::Nmi::arithmetic
+                                             ? NmiAverage::arithmetic
+                                             : NmiAverage::geometric};
+  std::vector<bool> trained_on = held_out_;
+  trained_on.flip();
+  EvaluationTables tables;
+  tables["training"] =
+      evaluate(dataset_, clustering_problems(dataset_, held_out_, config_.scores), pipelines,
+               {top_selector(dataset_), random_selector(), best_selector("opt_glob", dataset_, scores.global),
+                best_selector("opt_ind", dataset_, scores.individual)},
+               options, Parallel::shared(), messages_, "evaluation, training categories");
+  if (std::count(held_out_.begin(), held_out_.end(), true) >= 2)
+    tables["held_out"] =
+        evaluate(dataset_, clustering_problems(dataset_, trained_on, config_.scores), pipelines,
+                 {top_selector(dataset_), random_selector(), best_selector("svnet", dataset_, predicted)}, options,
+                 Parallel::shared(), messages_, "evaluation, held-out categories");
+  else
+    say("evaluation: fewer than 2 held-out categories, no table of them");
+  write_atomically(folder_ / "evaluation.json", tables_json(tables));
+  if (json) write_atomically(*json, tables_json(tables));
+  return tables;
+}
+
+void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages) {
+  Config small = config;
+  small.scores.problems = 100;
+  small.scores.min_samples = 0;
+  small.scores.target_error = 0;
+  small.training.epochs = 1;
+  const ScratchFolder folder;
+  Run(small, sample_of(dataset), folder.path(), messages).evaluation(10);
+}
+
+}  // namespace svnet

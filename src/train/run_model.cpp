@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <numeric>
+
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/sha256.h"
+#include "base/text.h"
+#include "io/atomic_file.h"
+#include "io/checkpoint.h"
+#include "nn/graph/run.h"
+#include "train/feature_extraction.h"
+#include "train/run.h"
+#include "train/trainer.h"
+
+namespace svnet {
+namespace {
+
+AngleEncoding encoding(Config::SvNet::Angles angles) {
+  return angles == Config::SvNet::Angles::radians ? AngleEncoding::radians : AngleEncoding::sphere;
+}
+
+TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
+  const auto& t = config.training;
+  return {.epochs = t.epochs,
+          .batch_size = t.batch_size,
+          .optimizer = t.optimizer == Config::Training::Optimizer::adam ? TrainerOptions::Optimizer::adam
+                                                                        : TrainerOptions::Optimizer::sgd,
+          .momentum = t.momentum,
+          .schedule = {},
+          .seed = static_cast<std::uint64_t>(config.seed),
+          .input_fingerprint = fingerprint};
+}
+
+Schedule schedule(const Config::Training& t, Index steps_per_epoch) {
+  using Kind = Config::Training::Schedule;
+  return {.kind = t.schedule == Kind::constant ? Schedule::Kind::constant
+                  : t.schedule == Kind::step   ? Schedule::Kind::step
+                                               : Schedule::Kind::cosine,
+          .base = t.learning_rate,
+          .period = t.step_epochs * steps_per_epoch,
+          .factor = t.step_factor,
+          .total = t.epochs * steps_per_epoch};
+}
+
+}  // namespace
+
+std::vector<bool> Run::validation_categories() const {
+  std::vector<std::int32_t> candidates;
+  for (std::size_t c = 0; c < held_out_.size(); ++c)
+    if (!held_out_[c]) candidates.push_back(static_cast<std::int32_t>(c));
+  const auto count = static_cast<Index>(candidates.size());
+  const Index wanted = config_.training.validation_categories;
+  check(wanted <= count - 2, "training.validation_categories: ", wanted, " of ", count,
+        " training categories leave fewer than 2 to train on");
+  RandomStream random(static_cast<std::uint64_t>(config_.seed), Stream::cross_validation);
+  draw_without_replacement(random, candidates.data(), count, wanted);
+  std::vector<bool> chosen(held_out_.size(), false);
+  for (Index i = 0; i < wanted; ++i) chosen[static_cast<std::size_t>(candidates[static_cast<std::size_t>(i)])] = true;
+  return chosen;
+}
+
+std::string Run::model_fingerprint(const std::string& features_fingerprint,
+                                   const std::string& scores_fingerprint) const {
+  const auto& n = config_.sv_net;
+  const auto& t = config_.training;
+  Sha256 hash;
+  hash.update_field("model 1")
+      .update_field(features_fingerprint)
+      .update_field(scores_fingerprint)
+      .update_field(joined_with("\n", config_.dataset.held_out));
+  hash.update_field(joined(config_.seed, " ", n.width, " ", static_cast<int>(n.angles), " ", static_cast<int>(n.target),
+                           " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
+                           static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
+                           std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
+  return hash.hex();
+}
+
+Model Run::model(Resume resume) {
+  const Scores scores = this->scores();
+  const Features features = this->features(config_.sv_net.backbone, config_.sv_net.layer);
+  const std::string wanted = model_fingerprint(features.input_fingerprint, scores.input_fingerprint);
+  const auto path = folder_ / "model.safetensors";
+  if (std::filesystem::exists(path) && resume == Resume::automatic) try {
+      if (Model model = read_model(path); model.input_fingerprint == wanted) {
+        say("SV-net: reused model.safetensors");
+        return model;
+      }
+    } catch (const Error& error) {
+      say(joined("made again: ", error.what()));
+    }
+
+  auto source = backbone_from_folder(config_.sv_net.backbone, config_.sv_net.layer, config_.weights.folder,
+                                     static_cast<std::uint64_t>(config_.seed));
+  const AngleEncoding angles = encoding(config_.sv_net.angles);
+  Model model{.backbone = source.backbone.kind().name,
+              .backbone_output = source.backbone.output_name(),
+              .preprocessing = source.backbone.preprocessing(),
+              .backbone_graph = source.backbone.graph(),
+              .backbone_parameters = source.backbone.parameters(),
+              .angles = angles,
+              .head = sv_net({.features = features.dimension,
+                              .width = config_.sv_net.width,
+                              .dropout = config_.sv_net.dropout,
+                              .angles = angles}),
+              .head_parameters = {},
+              .input_fingerprint = wanted};
+
+  const std::vector<bool> validating = validation_categories();
+  std::vector<bool> training(held_out_.size());
+  for (std::size_t c = 0; c < training.size(); ++c) training[c] = !held_out_[c] && !validating[c];
+  const Target target =
+      config_.sv_net.target == Config::SvNet::Target::individual ? Target::individual : Target::global;
+  const TrainingSet training_set(dataset_, features, scores, training, target, angles);
+  std::optional<TrainingSet> validation_set;
+  if (config_.training.validation_categories > 0)
+    validation_set.emplace(dataset_, features, scores, validating, target, angles);
+  say(joined("SV-net: ", model.head.parameter_count(), " parameters, ", training_set.size(), " views to learn from",
+             validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
+  train_into(model, training_set, validation_set ? &*validation_set : nullptr, resume);
+  write_model(path, model);
+  return model;
+}
+
+void Run::train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume) {
+  TrainerOptions options = trainer_options(config_, model.input_fingerprint);
+  options.schedule = schedule(config_.training, Trainer(model.head, training, validation, options).steps_per_epoch());
+  Trainer trainer(model.head, training, validation, options);
+  const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
+  std::optional<Checkpoint> from;
+  if (resume == Resume::automatic) try {
+      if (read_checkpoint_fingerprint(last) == model.input_fingerprint &&
+          read_checkpoint_fingerprint(best) == model.input_fingerprint) {
+        from = read_checkpoint(last, model.head, trainer.optimizer_state());
+        say(joined("training: goes on after epoch ", from->epoch));
+      }
+    } catch (const Error& error) {
+      say(joined("training starts anew: ", error.what()));
+    }
+  trainer.train(
+      std::move(from),
+      [&](const Checkpoint& state, bool is_best) {
+        if (is_best) write_checkpoint(best, state);
+        write_checkpoint(last, state);
+        write_atomically(folder_ / "metrics.csv", state.metrics);
+      },
+      messages_);
+  model.head_parameters = read_checkpoint(best, model.head, trainer.optimizer_state()).parameters;
+}
+
+std::vector<double> Run::predicted_scores(const Model& model, const Features& features) const {
+  const Index angles = angle_count(model.angles);
+  std::vector<double> predicted;
+  for (const auto& pose : dataset_.poses) {
+    // One row per view: the features of the pose's top view, and the view's angles.
+    Tensor top = Tensor::empty({pose.view_count, features.dimension}),
+           encoded = Tensor::empty({pose.view_count, angles});
+    for (Index i = 0; i < pose.view_count; ++i) {
+      const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + i)];
+      std::copy_n(features.values.data() + pose.top_view * features.dimension, features.dimension,
+                  top.data<float>() + i * features.dimension);
+      encode_angles(model.angles, view.theta_deg, view.phi_deg, encoded.data<float>() + i * angles);
+    }
+    const Tensor score = infer(model.head, model.head_parameters, {top, encoded}, {model.head.output()})[0];
+    predicted.insert(predicted.end(), score.data<float>(), score.data<float>() + pose.view_count);
+  }
+  return predicted;
+}
+
+}  // namespace svnet

@@ -1,0 +1,23 @@
+#include "train/run.h"
+#include "train/scores_stage.h"
+
+namespace svnet {
+
+Scores Run::scores() {
+  const Features features = this->features(config_.scores.backbone, config_.scores.layer);
+  const std::string wanted = scores_fingerprint(features.input_fingerprint, config_);
+  const auto path = folder_ / "scores.h5";
+  if (std::filesystem::exists(path)) try {
+      if (Scores scores = read_scores(path); scores.input_fingerprint == wanted) {
+        say("scores: reused scores.h5");
+        return scores;
+      }
+    } catch (const Error& error) {
+      say(joined("made again: ", error.what()));
+    }
+  Scores scores = make_scores(dataset_, features, held_out_, config_, messages_);
+  write_scores(path, scores);
+  return scores;
+}
+
+}  // namespace svnet

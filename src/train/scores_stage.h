@@ -1,0 +1,24 @@
+#pragma once
+#include "base/progress.h"
+#include "io/features_file.h"
+#include "io/scores_file.h"
+#include "io/view_dataset.h"
+#include "semantics/clustering_problems.h"
+#include "train/config/config.h"
+
+namespace svnet {
+
+/// The random problems of a configuration over the categories of a dataset that are not excluded; fewer categories than
+/// scores.min_categories lower that bound.
+ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
+                                       const Config::Scores& config);
+
+/// Changes with everything that the scores of these features depend on.
+std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
+
+/// Scores of every view as `config.scores` and `config.seed` say; views of excluded categories have none. Rows of the
+/// features are the dataset's views.
+Scores make_scores(const ViewDataset& dataset, const Features& features, const std::vector<bool>& excluded,
+                   const Config& config, const Messages& messages);
+
+}  // namespace svnet

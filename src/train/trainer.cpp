@@ -1,0 +1,140 @@
+#include "train/trainer.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "base/random.h"
+#include "nn/autograd.h"
+#include "nn/graph/run.h"
+#include "nn/ops/losses.h"
+#include "nn/optim/optimizer.h"
+
+namespace svnet {
+namespace {
+
+constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
+
+/// The numbers of all examples in the order of this epoch.
+std::vector<std::int32_t> shuffled(Index count, std::uint64_t seed, Index epoch) {
+  std::vector<std::int32_t> order(static_cast<std::size_t>(count));
+  std::iota(order.begin(), order.end(), 0);
+  RandomStream random(seed, Stream::shuffle, static_cast<std::uint64_t>(epoch));
+  draw_without_replacement(random, order.data(), count, count);
+  return order;
+}
+
+/// Where batch `number` ends: a last batch of a single example joins the batch before it.
+Index batch_end(Index begin, Index batch_size, Index count) {
+  const Index end = std::min(begin + batch_size, count);
+  return count - end == 1 ? count : end;
+}
+
+std::string metrics_line(Index epoch, Index step, double rate, double loss, std::optional<double> validation) {
+  char text[160];
+  std::snprintf(text, sizeof text, "%lld,%lld,%.9g,%.9g,", static_cast<long long>(epoch), static_cast<long long>(step),
+                rate, loss);
+  std::string line = text;
+  if (validation) {
+    std::snprintf(text, sizeof text, "%.9g", *validation);
+    line += text;
+  }
+  return line + "\n";
+}
+
+}  // namespace
+
+Trainer::Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
+                 const TrainerOptions& options)
+    : graph_(graph), training_(training), validation_(validation), options_(options) {
+  check(training_.size() >= 2, "[training] needs at least 2 views with a score, there are ", training_.size());
+}
+
+std::unique_ptr<Optimizer> Trainer::new_optimizer(const Parameters& parameters) const {
+  auto tensors = trainable(graph_, parameters);
+  if (options_.optimizer == TrainerOptions::Optimizer::sgd)
+    return sgd(std::move(tensors), {.momentum = options_.momentum});
+  return adam(std::move(tensors));
+}
+
+std::vector<Tensor> Trainer::optimizer_state() const { return new_optimizer(initial_parameters(graph_, 0))->state(); }
+
+Index Trainer::steps_per_epoch() const {
+  Index steps = 0;
+  for (Index begin = 0; begin < training_.size(); begin = batch_end(begin, options_.batch_size, training_.size()))
+    ++steps;
+  return steps;
+}
+
+double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
+  const auto batch = training_.batch(examples);
+  const TrainingContext context{.seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps)};
+  const Tensor score = svnet::train(graph_, parameters, {batch.features, batch.angles}, {graph_.output()}, context)[0];
+  const Tensor loss = ops::mean_squared_error(score, batch.targets);
+  check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
+        "; a smaller learning rate may help");
+  autograd::GradientMap gradients;
+  autograd::backward(loss, gradients);
+  optimizer.step(gradients, options_.schedule.at(optimizer.steps));
+  return loss.item();
+}
+
+double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) const {
+  double sum = 0;
+  std::vector<std::int32_t> examples(static_cast<std::size_t>(set.size()));
+  std::iota(examples.begin(), examples.end(), 0);
+  constexpr Index kBatch = 256;
+  for (Index begin = 0; begin < set.size(); begin += kBatch) {
+    const auto part = std::span(examples).subspan(static_cast<std::size_t>(begin),
+                                                  static_cast<std::size_t>(std::min(kBatch, set.size() - begin)));
+    const auto batch = set.batch(part);
+    const Tensor score = infer(graph_, parameters, {batch.features, batch.angles}, {graph_.output()})[0];
+    sum += ops::mean_squared_error(score, batch.targets).item() * static_cast<double>(part.size());
+  }
+  return sum / static_cast<double>(set.size());
+}
+
+void Trainer::train(std::optional<Checkpoint> from,
+                    const std::function<void(const Checkpoint&, bool best)>& after_epoch, const Messages& messages) {
+  Checkpoint state = from ? std::move(*from)
+                          : Checkpoint{.input_fingerprint = options_.input_fingerprint,
+                                       .metrics = kMetricsHeader,
+                                       .parameters = initial_parameters(graph_, options_.seed),
+                                       .optimizer = {}};
+  const auto optimizer = new_optimizer(state.parameters);
+  optimizer->restore(state.optimizer, state.steps);
+  state.optimizer = optimizer->state();
+
+  const Index per_epoch = steps_per_epoch();
+  Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch);
+  Index done = 0;
+  for (; state.epoch < options_.epochs;) {
+    const auto order = shuffled(training_.size(), options_.seed, state.epoch);
+    const double rate = options_.schedule.at(optimizer->steps);
+    double sum = 0;
+    for (Index begin = 0, end; begin < training_.size(); begin = end) {
+      end = batch_end(begin, options_.batch_size, training_.size());
+      const auto examples =
+          std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      sum += step(examples, state.parameters, *optimizer) * static_cast<double>(end - begin);
+      progress.update(++done);
+    }
+    const double loss = sum / static_cast<double>(training_.size());
+    std::optional<double> validation;
+    if (validation_ != nullptr) validation = mean_loss(*validation_, state.parameters);
+    ++state.epoch;
+    state.steps = optimizer->steps;
+    state.metrics += metrics_line(state.epoch, state.steps, rate, loss, validation);
+    const double judged = validation.value_or(loss);
+    const bool best = state.epoch == 1 || judged < state.best_loss;
+    if (best) state.best_loss = judged;
+    if (messages.line)
+      messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss,
+                           validation ? joined(", validation loss ", *validation) : std::string(),
+                           best ? ", best so far" : ""));
+    after_epoch(state, best);
+  }
+}
+
+}  // namespace svnet

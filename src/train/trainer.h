@@ -1,0 +1,52 @@
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "base/progress.h"
+#include "io/checkpoint.h"
+#include "nn/optim/schedule.h"
+#include "train/training_set.h"
+
+namespace svnet {
+
+struct TrainerOptions {
+  Index epochs = 10;
+  Index batch_size = 32;
+  enum class Optimizer { adam, sgd } optimizer = Optimizer::adam;
+  double momentum = 0.9;  // sgd
+  Schedule schedule;      // in steps
+  std::uint64_t seed = 0;
+  std::string input_fingerprint;  // copied into checkpoints
+};
+
+/// Trains a graph with inputs (features, angles) and one score by mean squared error.
+class Trainer {
+ public:
+  /// `validation` may be empty (nullptr). Keeps references.
+  Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
+          const TrainerOptions& options);
+
+  /// Starts from the initialisers, or goes on from a checkpoint with the same bits as if it had never stopped. After
+  /// each epoch calls `after_epoch` with the state and whether the epoch is the best so far: by validation loss where
+  /// there is a validation set, else by training loss. Throws Error where the loss or a gradient is not finite.
+  void train(std::optional<Checkpoint> from, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
+             const Messages& messages);
+
+  /// For reading a checkpoint: tensors of the shapes of the optimizer's state.
+  std::vector<Tensor> optimizer_state() const;
+
+  Index steps_per_epoch() const;
+
+ private:
+  double step(std::span<const std::int32_t> examples, Parameters& parameters, class Optimizer& optimizer) const;
+  double mean_loss(const TrainingSet& set, const Parameters& parameters) const;
+  std::unique_ptr<class Optimizer> new_optimizer(const Parameters& parameters) const;
+
+  const Graph& graph_;
+  const TrainingSet& training_;
+  const TrainingSet* validation_;
+  TrainerOptions options_;
+};
+
+}  // namespace svnet

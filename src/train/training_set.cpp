@@ -1,0 +1,71 @@
+#include "train/training_set.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/text.h"
+#include "semantics/score_sums.h"
+
+namespace svnet {
+namespace {
+
+/// The score that is learnt, scaled to [0, 1] among the views of each pose.
+std::vector<double> scaled_targets(const ViewDataset& dataset, const Scores& scores, Target target) {
+  if (target == Target::individual) return scores.scaled;
+  std::vector<std::int32_t> pose_of_view;
+  for (const View& view : dataset.views) pose_of_view.push_back(static_cast<std::int32_t>(view.pose));
+  return scaled_per_pose(scores.global, pose_of_view);
+}
+
+}  // namespace
+
+TrainingSet::TrainingSet(const ViewDataset& dataset, const Features& features, const Scores& scores,
+                         const std::vector<bool>& categories, Target target, AngleEncoding angles)
+    : features_(features), angles_(angles) {
+  check_rows(dataset, features.paths, "features");
+  check_rows(dataset, scores.paths, "scores");
+  const std::vector<double> targets = scaled_targets(dataset, scores, target);
+  for (std::size_t i = 0; i < dataset.views.size(); ++i) {
+    const View& view = dataset.views[i];
+    if (!categories[static_cast<std::size_t>(view.category)] || !std::isfinite(targets[i])) continue;
+    Example example{.top_row = dataset.top_view(view.pose), .angles = {}, .target = static_cast<float>(targets[i])};
+    encode_angles(angles, view.theta_deg, view.phi_deg, example.angles);
+    examples_.push_back(example);
+  }
+}
+
+TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) const {
+  const auto count = static_cast<Index>(examples.size());
+  const Index dimension = features_.dimension, angle_numbers = angle_count(angles_);
+  Batch batch{Tensor::empty({count, dimension}), Tensor::empty({count, angle_numbers}), Tensor::empty({count, 1})};
+  for (Index i = 0; i < count; ++i) {
+    const Example& example = examples_[static_cast<std::size_t>(examples[static_cast<std::size_t>(i)])];
+    std::copy_n(features_.values.data() + example.top_row * dimension, dimension,
+                batch.features.data<float>() + i * dimension);
+    std::copy_n(example.angles, angle_numbers, batch.angles.data<float>() + i * angle_numbers);
+    batch.targets.data<float>()[i] = example.target;
+  }
+  return batch;
+}
+
+void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what) {
+  check(paths.size() == dataset.views.size(), what, " of ", paths.size(), " views do not belong to a dataset of ",
+        dataset.views.size());
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    check(paths[i] == dataset.views[i].path, what, ": row ", i, " is ", paths[i], ", the dataset has ",
+          dataset.views[i].path);
+}
+
+std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
+                                   const std::string& key) {
+  std::vector<bool> named(dataset.categories.size(), false);
+  for (const auto& name : names) {
+    const auto at = std::find(dataset.categories.begin(), dataset.categories.end(), name);
+    check(at != dataset.categories.end(), key, ": the dataset has no category '", name, "'",
+          suggestion(name, dataset.categories));
+    named[static_cast<std::size_t>(at - dataset.categories.begin())] = true;
+  }
+  return named;
+}
+
+}  // namespace svnet

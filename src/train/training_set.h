@@ -1,0 +1,50 @@
+#pragma once
+#include <vector>
+
+#include "io/features_file.h"
+#include "io/scores_file.h"
+#include "io/view_dataset.h"
+#include "models/sv_net.h"
+#include "nn/tensor.h"
+
+namespace svnet {
+
+enum class Target { individual, global };
+
+/// What SV-net learns from: (features of a pose's top view, angles of a view) -> scaled score of the view.
+class TrainingSet {
+ public:
+  /// The views of `categories` that have a score. Rows of features and scores are the dataset's views (Error where they
+  /// are not). Keeps a reference to the features.
+  TrainingSet(const ViewDataset& dataset, const Features& features, const Scores& scores,
+              const std::vector<bool>& categories, Target target, AngleEncoding angles);
+
+  Index size() const { return static_cast<Index>(examples_.size()); }
+
+  struct Batch {
+    Tensor features;  // (B, D)
+    Tensor angles;    // (B, angle_count)
+    Tensor targets;   // (B, 1)
+  };
+  Batch batch(std::span<const std::int32_t> examples) const;
+
+ private:
+  struct Example {
+    Index top_row;
+    float angles[3];
+    float target;
+  };
+  const Features& features_;
+  AngleEncoding angles_;
+  std::vector<Example> examples_;
+};
+
+/// Throws Error, beginning with `what`, unless `paths` are the dataset's views in its order.
+void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what);
+
+/// For each category of the dataset, whether it is among `names`. Throws Error, with `key` and the nearest category,
+/// for a name that is no category.
+std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
+                                   const std::string& key);
+
+}  // namespace svnet

@@ -1,0 +1,260 @@
+#include "train/config/config.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "temporary_folder.h"
+#include "train/config/strict_yaml.h"
+
+using namespace svnet;
+
+namespace {
+
+const std::string kBase = "dataset: {root: data}\nscores: {problems: 10}\n";  // the least that is valid, two lines
+
+Config parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  return parse_config(text, "c.yaml", "/work/configs", overrides);
+}
+
+/// The message of the error that reading `text` gives; empty where it is read.
+std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
+  try {
+    parse(text, overrides);
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+std::string error_of_override(const std::string& assignment) { return error_of(kBase, {assignment}); }
+
+}  // namespace
+
+TEST_CASE("a configuration is read over the defaults") {
+  const Config c = parse(R"(
+seed: 7
+dataset:
+  root: ../views
+  held_out: [comb, 'tooth brush', 12]
+scores:
+  clustering: kmeans
+  min_samples: 2e5
+  singletons: skip
+  target_error: 1e-3
+sv_net: {layer: block5_pool, angles: sphere, dropout: 0}
+weights:
+evaluation:
+  pipelines:
+    - mobilenet_v2_ward
+    - xception_single
+  nmi: geometric
+)");
+  CHECK(c.seed == 7);
+  CHECK(c.dataset.root == "/work/views");
+  CHECK(c.dataset.held_out == std::vector<std::string>{"comb", "tooth brush", "12"});
+  CHECK(c.weights.folder.empty());
+  CHECK(c.scores.clustering == Config::Scores::Clustering::kmeans);
+  CHECK(c.scores.min_samples == 200000);
+  CHECK(c.scores.singletons == Config::Scores::Singletons::skip);
+  CHECK(c.scores.target_error == 0.001);
+  CHECK(c.sv_net.layer == "block5_pool");
+  CHECK(c.sv_net.angles == Config::SvNet::Angles::sphere);
+  CHECK(c.sv_net.dropout == 0);
+  CHECK(c.evaluation.pipelines == std::vector<std::string>{"mobilenet_v2_ward", "xception_single"});
+  CHECK(c.evaluation.nmi == Config::Evaluation::Nmi::geometric);
+  CHECK(c.sv_net.backbone == "vgg19");
+  CHECK(c.training.batch_size == 32);
+  CHECK(c.training.learning_rate == 1e-3);
+}
+
+TEST_CASE("every error of a key names file, line and key") {
+  const auto at_line_3 = [](const std::string& line) { return error_of(kBase + line + "\n"); };
+  CHECK(at_line_3("sede: 1") == "c.yaml:3: sede: unknown key, did you mean 'seed'?");
+  CHECK(at_line_3("colours: 1") ==
+        "c.yaml:3: colours: unknown key; known: seed, dataset, weights, scores, sv_net, training, evaluation");
+  CHECK(at_line_3("training:\n  epoch: 1") == "c.yaml:4: training.epoch: unknown key, did you mean 'epochs'?");
+  CHECK(at_line_3("sv_net:\n  optimizer: adam") ==
+        "c.yaml:4: sv_net.optimizer: unknown key, did you mean 'training.optimizer'?");
+  CHECK(at_line_3("evaluation: {seeds: []}") ==
+        "c.yaml:3: evaluation.seeds: unknown key; known: problems, pipelines, nmi");
+  CHECK(at_line_3("seed: 1\nseed: 2") == "c.yaml:4: key 'seed' is given twice, first on line 3");
+  CHECK(at_line_3("training:\n  epochs: 1\n  epochs: 1") ==
+        "c.yaml:5: key 'training.epochs' is given twice, first on line 4");
+  CHECK(at_line_3("dataset: {root: x}") == "c.yaml:3: key 'dataset' is given twice, first on line 1");
+  CHECK(at_line_3("seed: many") == "c.yaml:3: seed: 'many' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("seed: 1.5") == "c.yaml:3: seed: '1.5' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("seed: 0x10") == "c.yaml:3: seed: '0x10' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("seed: '5'") == "c.yaml:3: seed: '5' in quotes is text, expected a whole number >= 0");
+  CHECK(at_line_3("seed: [1]") == "c.yaml:3: seed: a list is given, expected a whole number >= 0");
+  CHECK(at_line_3("seed:") == "c.yaml:3: seed: no value is given, expected a whole number >= 0");
+  CHECK(at_line_3("seed: -1") == "c.yaml:3: seed: -1 is out of range, expected a whole number >= 0");
+  CHECK(at_line_3("training: {batch_size: 1}") ==
+        "c.yaml:3: training.batch_size: 1 is out of range, expected a whole number >= 2");
+  CHECK(at_line_3("training:\n\n  learning_rate: 0") ==
+        "c.yaml:5: training.learning_rate: 0 is out of range, expected a number > 0");
+  CHECK(at_line_3("training: {learning_rate: .nan}") ==
+        "c.yaml:3: training.learning_rate: '.nan' is wrong, expected a number > 0");
+  CHECK(at_line_3("training: {learning_rate: inf}") ==
+        "c.yaml:3: training.learning_rate: inf is out of range, expected a number > 0");
+  CHECK(at_line_3("sv_net: {dropout: 1}") ==
+        "c.yaml:3: sv_net.dropout: 1 is out of range, expected a number >= 0 and < 1");
+  CHECK(at_line_3("training: {optimizer: adm}") ==
+        "c.yaml:3: training.optimizer: unknown value 'adm', expected one of adam, sgd; did you mean 'adam'?");
+  CHECK(at_line_3("evaluation: {nmi: maximum}") ==
+        "c.yaml:3: evaluation.nmi: unknown value 'maximum', expected one of arithmetic, geometric");
+  CHECK(at_line_3("sv_net: {layer: }") == "c.yaml:3: sv_net.layer: no value is given, expected text (\"\" for none)");
+  CHECK(at_line_3("sv_net: {layer: {a: b}}") ==
+        "c.yaml:3: sv_net.layer: a mapping is given, expected text (\"\" for none)");
+  CHECK(at_line_3("training: 5") == "c.yaml:3: training: is a section, expected its keys below it");
+  CHECK(at_line_3("evaluation:\n  pipelines: [xception_ward, ward]") ==
+        "c.yaml:4: evaluation.pipelines[1]: 'ward' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: "
+        "ward, average, complete, single, kmeans");
+  CHECK(at_line_3("evaluation: {pipelines: [xception_wrad]}") ==
+        "c.yaml:3: evaluation.pipelines[0]: xception_wrad: unknown value 'wrad', expected one of ward, average, "
+        "complete, single, "
+        "kmeans; did you mean 'ward'?");
+  CHECK(at_line_3("evaluation: {pipelines: []}") ==
+        "c.yaml:3: evaluation.pipelines: at least one pipeline is needed, as in [mobilenet_v2_ward]");
+  CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: car") ==
+        "c.yaml:4: dataset.held_out: 'car' is wrong, expected a list, as in [first, second]");
+  CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: [car,\n    dog, car]") ==
+        "c.yaml:5: dataset.held_out[2]: 'car' is listed twice");
+}
+
+TEST_CASE("what concerns several keys is checked when all are known") {
+  CHECK(error_of("scores: {problems: 1}") == "c.yaml: dataset.root: required, name the folder of the images");
+  CHECK(error_of("scores: {problems: 1}\ndataset: {root: ''}") ==
+        "c.yaml:2: dataset.root: required, name the folder of the images");
+  CHECK(error_of("dataset: {root: d}") ==
+        "c.yaml: scores.min_samples: no rule says when to stop, set scores.min_samples, scores.problems or "
+        "scores.target_error above 0");
+  CHECK(error_of_override("scores.max_categories=2") ==
+        "--set scores.max_categories: 2 is less than scores.min_categories 3");
+  CHECK(error_of("dataset: {root: d}\nscores:\n  problems: 1\n  min_objects: 4\n  max_objects: 3") ==
+        "c.yaml:5: scores.max_objects: 3 is less than scores.min_objects 4");
+  CHECK(parse("dataset: {root: d}", {"scores.target_error=0.01"}).scores.target_error == 0.01);
+}
+
+TEST_CASE("what is not the YAML that is wanted says the line") {
+  CHECK(error_of("seed: 1\ndataset: {root: [}\n") == "c.yaml:2: illegal flow end (column 18)");
+  CHECK(error_of("seed: 1\n\tdataset: 3\n").starts_with("c.yaml:2: "));
+  CHECK(error_of("seed: 1\n'open") == "c.yaml:2: illegal EOF in scalar (column 6)");
+  CHECK(error_of("seed: 1\nweights: {folder: \"open}\n") == "c.yaml:2: illegal EOF in scalar (column 25)");
+  CHECK(error_of("seed: 1\ndataset: [car\n") == "c.yaml:2: end of sequence flow not found (column 1)");
+  CHECK(error_of("") == "c.yaml: dataset.root: required, name the folder of the images");
+  CHECK(error_of("- a\n") == "c.yaml:1: expected lines of the form 'key: value'");
+  CHECK(error_of("text") == "c.yaml:1: expected lines of the form 'key: value'");
+  CHECK(error_of("seed: &x 1\n") == "c.yaml:1: anchors ('&x') are not allowed here, write the value out");
+  CHECK(error_of("\nseed: *x\n").starts_with("c.yaml:2: "));
+  CHECK(error_of("seed: !!int 5\n") == "c.yaml:1: tags ('tag:yaml.org,2002:int') are not allowed here");
+  CHECK(error_of("seed: 5\n---\nseed: 6\n") == "c.yaml: only one YAML document is allowed, remove what follows '---'");
+  CHECK(error_of("[a, b]: 5\n") == "c.yaml:1: a key must be a name");
+  CHECK(error_of("scores.layer: x\n") ==
+        "c.yaml:1: key 'scores.layer' has a dot: write what follows the dot indented on a line of its own, below "
+        "'NAME:'");
+  CHECK(error_of(std::string(100000, '[')).starts_with("c.yaml:1: "));
+  CHECK(error_of(kBase + std::string("seed: \0", 7)).starts_with("c.yaml:3: "));
+}
+
+TEST_CASE("overrides are applied in order and their errors say --set") {
+  const Config c = parse(kBase, {"training.epochs=3", "training.epochs=4", "sv_net.layer=", "scores.layer=a=b",
+                                 "dataset.held_out=[car, dog]", "training.optimizer=sgd"});
+  CHECK(c.training.epochs == 4);
+  CHECK(c.sv_net.layer.empty());
+  CHECK(c.scores.layer == "a=b");
+  CHECK(c.dataset.held_out == std::vector<std::string>{"car", "dog"});
+  CHECK(c.training.optimizer == Config::Training::Optimizer::sgd);
+
+  CHECK(error_of_override("epochs=3") == "--set epochs: unknown key, did you mean 'training.epochs'?");
+  CHECK(error_of_override("train.epochs=3") == "--set train.epochs: unknown key, did you mean 'training.epochs'?");
+  CHECK(error_of_override("training.epoch=3") == "--set training.epoch: unknown key, did you mean 'epochs'?");
+  CHECK(error_of_override("training.epochs=0") ==
+        "--set training.epochs: 0 is out of range, expected a whole number >= 1");
+  CHECK(error_of_override("training.epochs=") ==
+        "--set training.epochs: '' in quotes is text, expected a whole number >= 1");
+  CHECK(error_of_override("training=3") == "--set training: is a section, expected its keys below it");
+  CHECK(error_of_override("dataset.held_out=[car") ==
+        "--set dataset.held_out: end of sequence flow not found (column 1)");
+  CHECK(error_of_override("dataset.held_out=[a, a]") == "--set dataset.held_out[1]: 'a' is listed twice");
+  CHECK(error_of_override("training.epochs") == "--set training.epochs: expected key=value");
+  CHECK(error_of_override("=3") == "--set =3: expected key=value");
+}
+
+TEST_CASE("relative paths are the file's, and those of overrides the working directory's") {
+  const TemporaryFolder folder;
+  const auto file =
+      folder.write("configs/c.yaml", "dataset: {root: ../views/}\nweights: {folder: /w}\nscores: {problems: 1}\n");
+  const Config c = read_config(file);
+  CHECK(c.dataset.root == folder.path() / "views");
+  CHECK(c.weights.folder == "/w");
+  const std::vector<std::string> overrides{"dataset.root=views", "weights.folder="};
+  CHECK(read_config(file, overrides).dataset.root == std::filesystem::current_path() / "views");
+  CHECK(read_config(file, overrides).weights.folder.empty());
+  CHECK_THROWS_WITH(read_config(folder.path() / "no.yaml"),
+                    (folder.path() / "no.yaml").string() + ": cannot open the configuration file, check its name");
+  CHECK_THROWS_WITH(read_config(folder.path()),
+                    folder.path().string() + ": is a folder, expected a configuration file");
+}
+
+TEST_CASE("the resolved configuration reads back equal, whatever its values") {
+  const Config c = parse(
+      kBase, {"dataset.root='/data/a b: \"c\" #1'", "dataset.held_out=['true', '12', 'null', '- x', \"a\\tb\", 'ü']",
+              "training.learning_rate=0.1", "training.momentum=0.30000000000000004", "scores.singletons=skip",
+              "scores.layer='~'", "seed=9223372036854775807"});
+  const std::string yaml = to_yaml(c);
+  const Config again = parse_config(yaml, "resolved", "/elsewhere");
+  CHECK(to_yaml(again) == yaml);
+  CHECK(again.dataset.root == c.dataset.root);
+  CHECK(again.dataset.held_out == std::vector<std::string>{"true", "12", "null", "- x", "a\tb", "ü"});
+  CHECK(again.training.momentum == 0.30000000000000004);
+  CHECK(again.scores.layer == "~");
+  CHECK(again.seed == 9223372036854775807);
+  CHECK(again.scores.singletons == Config::Scores::Singletons::skip);
+}
+
+TEST_CASE("every key can be overridden by its own written value, and its default is accepted") {
+  for (const auto& key : config_keys()) {
+    INFO(key.name);
+    CHECK_FALSE(key.help.empty());
+    const std::string error = error_of(kBase, {key.name + "=" + key.default_value});
+    // The two that have no valid default.
+    if (key.name == "dataset.root")
+      CHECK(error == "--set dataset.root: required, name the folder of the images");
+    else
+      CHECK(error == (key.name == "scores.problems"
+                          ? "c.yaml: scores.min_samples: no rule says when to stop, set "
+                            "scores.min_samples, scores.problems or scores.target_error above 0"
+                          : ""));
+  }
+}
+
+TEST_CASE("configs/paper.yaml documents every key with the paper's values") {
+  const std::filesystem::path folder = std::filesystem::path(SVNET_SOURCE_DIR) / "configs";
+  const Config c = read_config(folder / "paper.yaml");
+  const std::string text = file_contents(folder / "paper.yaml"), documented = documented_yaml(c, folder);
+  // The file is a heading of its own and then what the table of keys says: run this test to see what to write.
+  CAPTURE(documented);
+  CHECK(text.ends_with("\n\n" + documented));
+  CHECK(c.dataset.held_out == std::vector<std::string>{"comb", "hammer", "knife", "toothbrush", "wrench"});
+  CHECK(c.scores.min_samples == 200000);
+  CHECK(c.sv_net.width == 4096);
+  CHECK(c.evaluation.problems == 10000);
+  CHECK(c.evaluation.nmi == Config::Evaluation::Nmi::geometric);
+}
+
+TEST_CASE("the other configurations of the project are valid") {
+  const std::filesystem::path folder = std::filesystem::path(SVNET_SOURCE_DIR) / "configs";
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) CHECK_NOTHROW(read_config(entry.path()));
+}
+
+TEST_CASE("a pipeline's name is a backbone and a clustering after the last underscore") {
+  const PipelineName name = parse_pipeline("mobilenet_v2_kmeans", "");
+  CHECK(name.backbone == "mobilenet_v2");
+  CHECK(name.clustering == Config::Scores::Clustering::kmeans);
+  CHECK(clustering_name(name.clustering) == "kmeans");
+  CHECK(clustering_from_name("single") == Config::Scores::Clustering::single);
+  CHECK_THROWS_WITH(clustering_from_name("wards"),
+                    "clustering: unknown value 'wards', expected one of ward, average, complete, single, kmeans; did "
+                    "you mean 'ward'?");
+}
