@@ -1,0 +1,63 @@
+#include "command/command.h"
+
+#include <exception>
+#include <iostream>
+#include <new>
+
+#include "base/cpu.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "command/interrupt.h"
+
+namespace svnet {
+
+Command::Command(std::string name, const std::string& description, const std::string& example)
+    : name_(std::move(name)), app_(description, name_) {
+  app_.fallthrough();  // subcommands take the options below as well
+  app_.set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
+  app_.add_option("--threads", threads_, "Number of threads (default: SVNET_THREADS, or all CPUs it may use)")
+      ->check(CLI::Range(1, 1024))
+      ->type_name("N");
+  app_.add_flag("--quiet", quiet_, "Print results and errors only");
+  std::string footer = "Example:";
+  for (std::size_t start = 0; start <= example.size();) {
+    const std::size_t end = std::min(example.find('\n', start), example.size());
+    footer += "\n  " + example.substr(start, end - start);
+    start = end + 1;
+  }
+  app_.footer(footer);
+}
+
+int Command::run(int argc, char** argv, const std::function<void(Console&)>& body) {
+  try {
+    app_.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app_.exit(e) == 0 ? 0 : 2;
+  }
+  Console console(quiet_, stderr_is_terminal());
+  try {
+    remember_interrupts();
+    cap_from_environment();
+    if (threads_ > 0) Parallel::shared().resize(threads_);
+    body(console);
+    console.end_task();
+    std::cout.flush();
+    check(std::cout.good(), "cannot write to standard output");
+    return 0;
+  } catch (const Interrupted&) {
+    return report(console, "interrupted", 130);
+  } catch (const UsageError& e) {
+    return report(console, std::string(e.what()) + "; see " + name_ + " --help", 2);
+  } catch (const std::bad_alloc&) {
+    return report(console, "out of memory", 1);
+  } catch (const std::exception& e) {
+    return report(console, e.what(), 1);
+  }
+}
+
+int Command::report(Console& console, const std::string& message, int status) const {
+  console.error(name_ + ": " + message);
+  return status;
+}
+
+}  // namespace svnet

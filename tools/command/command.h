@@ -1,0 +1,52 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <functional>
+#include <string>
+
+#include "base/error.h"
+#include "command/console.h"
+
+namespace svnet {
+
+/// What a program's own arguments have wrong that CLI11 cannot see: exit 2. Throw it with wrong_usage.
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+template <class... Parts>
+[[noreturn]] void wrong_usage(const Parts&... parts) {
+  throw UsageError(joined(parts...));
+}
+
+/// The frame of a program: its arguments, --help, --version, --threads and --quiet, signals, and the one place that
+/// catches.
+///
+///     int main(int argc, char** argv) {
+///       Command command("svnet-info", "Says what a file contains.", "svnet-info model.safetensors");
+///       std::string file;
+///       command.app().add_option("FILE", file, "A weights, features, scores or model file");
+///       return command.run(argc, argv, [&](Console& console) { console.result(describe(file)); });
+///     }
+class Command {
+ public:
+  /// `example`: one or more command lines that --help shows.
+  Command(std::string name, const std::string& description, const std::string& example);
+
+  /// To add the program's arguments to.
+  CLI::App& app() { return app_; }
+
+  /// Parses, runs `body` and returns the exit status: 0 done, 1 failed (one line on stderr: what, where, what to do),
+  /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA and --threads are in force when the body runs.
+  int run(int argc, char** argv, const std::function<void(Console&)>& body);
+
+ private:
+  int report(Console& console, const std::string& message, int status) const;
+
+  std::string name_;
+  CLI::App app_;
+  int threads_ = 0;
+  bool quiet_ = false;
+};
+
+}  // namespace svnet

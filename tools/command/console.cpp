@@ -1,0 +1,117 @@
+#include "command/console.h"
+
+#include <cstdlib>
+#include <iostream>
+
+#include <spdlog/details/log_msg.h>
+#include <spdlog/sinks/basic_file_sink.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "command/interrupt.h"
+
+namespace svnet {
+namespace {
+
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80;
+}
+
+}  // namespace
+
+class Console::LogFile {
+ public:
+  explicit LogFile(const std::filesystem::path& file) : sink_(file.string()) {
+    sink_.set_pattern("%Y-%m-%d %H:%M:%S %v");
+  }
+
+  void write(std::string_view text) {
+    sink_.log({"", spdlog::level::info, spdlog::string_view_t(text.data(), text.size())});
+    sink_.flush();
+  }
+
+ private:
+  spdlog::sinks::basic_file_sink_st sink_;
+};
+
+Console::Console(bool quiet, bool terminal) : quiet_(quiet), terminal_(terminal) {
+  messages_.line = [this](std::string_view text) { line(text); };
+  messages_.progress = [this](std::string_view task, Index done, Index total, double seconds) {
+    throw_if_interrupted();
+    progress({without_control_characters(task), done, total, seconds});
+  };
+}
+
+Console::~Console() { erase_bar(); }
+
+void Console::line(std::string_view text) { print(without_control_characters(text)); }
+
+void Console::result(std::string_view text) {
+  erase_bar();
+  std::cout << text << '\n';
+}
+
+void Console::error(std::string_view text) {
+  const std::string clean = without_control_characters(text);
+  erase_bar();
+  std::cerr << clean << std::endl;
+  try {
+    if (log_file_) log_file_->write(clean);
+  } catch (const spdlog::spdlog_ex&) {
+    log_file_.reset();  // the error itself may be that the disk is full
+  }
+}
+
+void Console::log_to(const std::filesystem::path& file) {
+  try {
+    log_file_ = std::make_unique<LogFile>(file);
+  } catch (const spdlog::spdlog_ex&) {
+    fail(file.string(), ": cannot open the log file, check that its folder can be written to");
+  }
+}
+
+void Console::end_task() {
+  if (!task_) return;
+  const std::string text = final_progress(*task_);
+  task_.reset();
+  print(text);
+}
+
+void Console::progress(TaskState state) {
+  const auto now = Clock::now();
+  if (task_ && task_->task != state.task) end_task();
+  if (!task_) last_plain_ = now;
+  task_ = std::move(state);
+  if (task_->finished()) return end_task();
+  if (terminal_ && !quiet_) {
+    std::cerr << '\r' << progress_bar(*task_, terminal_columns()) << "\x1b[K" << std::flush;
+    bar_drawn_ = true;
+  }
+  if (now - last_plain_ < std::chrono::seconds(10)) return;
+  last_plain_ = now;
+  const std::string text = plain_progress(*task_);
+  if (!terminal_) return print(text);
+  if (log_file_) log_file_->write(text);
+}
+
+void Console::print(std::string_view text) {
+  if (!quiet_) {
+    erase_bar();
+    std::cerr << text << std::endl;
+  }
+  if (log_file_) log_file_->write(text);
+}
+
+void Console::erase_bar() {
+  if (bar_drawn_) std::cerr << "\r\x1b[K" << std::flush;
+  bar_drawn_ = false;
+}
+
+bool stderr_is_terminal() {
+  const char* kind = std::getenv("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+}
+
+}  // namespace svnet

@@ -1,0 +1,36 @@
+// svnet-eval: how well the views that SV-net chooses can be clustered.
+#include "command/command.h"
+#include "train/run.h"
+
+int main(int argc, char** argv) {
+  using namespace svnet;
+  namespace fs = std::filesystem;
+  Command command(
+      "svnet-eval",
+      "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder.",
+      "svnet-eval runs/eth80 --problems 1000");
+  fs::path source, json;
+  Index problems = 0;
+  command.app()
+      .add_option("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>")
+      ->required();
+  command.app()
+      .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
+      ->check(CLI::PositiveNumber);
+  command.app().add_option("--json", json, "Writes evaluation.json here too");
+  return command.run(argc, argv, [&](Console& console) {
+    const bool folder_given = fs::is_directory(source);
+    const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
+    if (folder_given)
+      check(fs::exists(source / "config.yaml"), source.string(),
+            ": is no run folder, it has no config.yaml; svnet-train --output makes one");
+    const Config config = read_config(folder_given ? source / "config.yaml" : source);
+    console.log_to(folder / "log.txt");
+    Run run(config, read_view_dataset(config.dataset.root), folder, console.messages());
+    const auto tables = run.evaluation(static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems),
+                                       json.empty() ? std::optional<fs::path>() : json);
+    if (const auto held_out = tables.find("held_out"); held_out != tables.end())
+      console.result(table_text(held_out->second, "Held-out categories"));
+    console.result(table_text(tables.at("training"), "Training categories"));
+  });
+}

@@ -1,0 +1,31 @@
+// svnet-features: features of every picture of a dataset.
+#include "command/command.h"
+#include "io/file_hash.h"
+#include "io/keras_graph.h"
+#include "train/feature_extraction.h"
+
+int main(int argc, char** argv) {
+  using namespace svnet;
+  Command command(
+      "svnet-features",
+      "Writes the features of every picture of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
+      "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5");
+  std::string backbone, layer;
+  std::filesystem::path weights, images, output;
+  command.app().add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2")->required();
+  command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required();
+  command.app().add_option("--images", images, "The dataset's folder")->required();
+  command.app().add_option("--output", output, "The file to write")->required();
+  command.app().add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)");
+  return command.run(argc, argv, [&](Console& console) {
+    KerasLoadReport report;
+    const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
+    console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
+                        report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
+    const ViewDataset dataset = read_view_dataset(images);
+    const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
+    const Features features = extract_features(source.backbone, dataset, origin, console.messages());
+    write_features(output, features);
+    console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
+  });
+}

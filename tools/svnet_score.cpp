@@ -1,0 +1,66 @@
+// svnet-score: Monte-Carlo semantic scores of every view of a features file.
+#include <cmath>
+#include <sstream>
+
+#include "base/sha256.h"
+#include "command/command.h"
+#include "io/features_file.h"
+#include "io/scores_file.h"
+#include "io/view_dataset.h"
+#include "semantics/semantic_scores.h"
+#include "train/clustering_choice.h"
+#include "train/scores_stage.h"
+#include "train/training_set.h"
+
+int main(int argc, char** argv) {
+  using namespace svnet;
+  Command command("svnet-score",
+                  "Writes the Monte-Carlo semantic scores of every view: how well it is clustered in random problems.",
+                  "svnet-score --features features.h5 --dataset photos --output scores.h5 --exclude comb,hammer "
+                  "--min-samples 2000");
+  std::filesystem::path features_file, dataset_folder, output;
+  std::vector<std::string> excluded;
+  std::string linkage = "ward", singletons = "zero";
+  Config config;
+  command.app().add_option("--features", features_file, "Features of every view (svnet-features)")->required();
+  command.app().add_option("--dataset", dataset_folder, "The dataset that the features are of")->required();
+  command.app().add_option("--output", output, "The file to write")->required();
+  command.app().add_option("--exclude", excluded, "Categories that take no part, separated by commas")->delimiter(',');
+  auto* samples =
+      command.app()
+          .add_option("--min-samples", config.scores.min_samples, "Until every view was in so many problems")
+          ->check(CLI::PositiveNumber);
+  auto* problems =
+      command.app().add_option("--problems", config.scores.problems, "So many problems")->check(CLI::PositiveNumber);
+  auto* error =
+      command.app()
+          .add_option("--target-error", config.scores.target_error, "Until every standard error is at most this")
+          ->check(CLI::PositiveNumber);
+  samples->excludes(problems)->excludes(error);
+  problems->excludes(error);
+  command.app().add_option("--linkage", linkage, "ward, average, complete, single, or kmeans")->capture_default_str();
+  command.app()
+      .add_option("--singletons", singletons,
+                  "A view without a partner of its category counts 0 (zero) or is left out (skip)")
+      ->check(CLI::IsMember({"zero", "skip"}))
+      ->capture_default_str();
+  command.app()
+      .add_option("--seed", config.seed, "Of the random problems")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+  return command.run(argc, argv, [&](Console& console) {
+    auto& s = config.scores;
+    if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
+      wrong_usage("give one of --min-samples, --problems, --target-error");
+    s.clustering = clustering_from_name(linkage);
+    s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
+    config.dataset.held_out = excluded;
+    const ViewDataset dataset = read_view_dataset(dataset_folder);
+    const Features features = read_features(features_file);
+    check_rows(dataset, features.paths, features_file.string());
+    const Scores scores =
+        make_scores(dataset, features, named_categories(dataset, excluded, "--exclude"), config, console.messages());
+    write_scores(output, scores);
+    console.result(joined(output.string(), ": ", scores.problems, " problems"));
+  });
+}

@@ -1,0 +1,40 @@
+// svnet-train: pictures become features, features scores, scores train SV-net.
+#include "command/command.h"
+#include "train/run.h"
+
+int main(int argc, char** argv) {
+  using namespace svnet;
+  Command command("svnet-train",
+                  "Runs every stage of a configuration into a run folder: features, scores, training, model.",
+                  "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos");
+  std::filesystem::path config_file, output;
+  std::vector<std::string> overrides;
+  std::string resume = "auto";
+  bool dry = false;
+  command.app()
+      .add_option("CONFIG", config_file, "The configuration; configs/paper.yaml explains every key")
+      ->required();
+  command.app()
+      .add_option("--set", overrides, "Sets a key, KEY=VALUE; may be given several times")
+      ->allow_extra_args(false);
+  command.app().add_option("--output", output, "The run folder (default: runs/<name of the configuration>)");
+  command.app()
+      .add_option("--resume", resume, "auto: goes on with what the folder holds of the same run; never: trains anew")
+      ->check(CLI::IsMember({"auto", "never"}))
+      ->capture_default_str();
+  command.app().add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
+  return command.run(argc, argv, [&](Console& console) {
+    const Config config = read_config(config_file, overrides);
+    ViewDataset dataset = read_view_dataset(config.dataset.root);
+    if (dry) {
+      dry_run(config, dataset, console.messages());
+      console.result("dry run: every stage works");
+      return;
+    }
+    if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
+    console.log_to(output / "log.txt");
+    Run run(config, std::move(dataset), output, console.messages());
+    run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);
+    console.result((output / "model.safetensors").string());
+  });
+}
