@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "models/mobilenet.h"
 #include "models/mobilenet_v2.h"
+#include "models/tiny_xception.h"
 
 namespace svnet {
 
@@ -20,6 +21,11 @@ const std::vector<BackboneKind>& backbone_kinds() {
        models::mobilenet_v2,
        {"mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224_no_top.h5",
         "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5"}},
+      {"tiny_xception",
+       "avg_pool",
+       {.mode = PixelMode::tf, .height = 96, .width = 96},
+       models::tiny_xception,
+       {"tiny_xception.h5"}},
   };
   return kinds;
 }

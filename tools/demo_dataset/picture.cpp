@@ -64,7 +64,7 @@ struct Scene {
 }  // namespace
 
 Placed put_down(const Solid& solid, const Eigen::Matrix3f& rotation) {
-  constexpr int kCells = 80;
+  constexpr int kCells = 60;
   constexpr float kReach = 0.16f;  // every solid fits into the cube of this half side
   const float cell = 2 * kReach / kCells;
   Vec3 low = Vec3::Constant(kMissed), high = -low;

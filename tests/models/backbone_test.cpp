@@ -1,0 +1,89 @@
+#include "models/backbone.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/random.h"
+#include "models/sv_net.h"
+#include "nn/graph/run.h"
+
+using namespace svnet;
+
+namespace {
+
+/// Parameters with batch norms that do something: every number of the graph drawn, variances positive.
+Parameters drawn_parameters(const Graph& graph) {
+  Parameters parameters = initial_parameters(graph, 5);
+  std::uint64_t number = 0;
+  for (const auto& node : graph.nodes())
+    for (const auto& spec : node.parameters) {
+      RandomStream random(9, Stream::weights, ++number);
+      if (spec.shape.size() > 1) continue;
+      Tensor value = parameters.at(node.parameter_name(spec));
+      for (Index i = 0; i < value.size(); ++i)
+        value.data<float>()[i] = static_cast<float>(
+            spec.name == "beta" || spec.name == "moving_mean" || spec.name == "bias" ? 0.3 * random.normal()
+                                                                                     : 0.5 + random.uniform());
+    }
+  return parameters;
+}
+
+Tensor pictures(Index count, Index size) {
+  Tensor x = Tensor::empty({count, size, size, 3});
+  RandomStream random(1, Stream::weights);
+  for (Index i = 0; i < x.size(); ++i) x.data<float>()[i] = static_cast<float>(2 * random.uniform() - 1);
+  return x;
+}
+
+}  // namespace
+
+TEST_CASE("networks have Keras' numbers of parameters and features") {
+  CHECK(backbone_kind("mobilenet").graph(224, false).parameter_count() == 3228864);
+  CHECK(backbone_kind("mobilenet").graph(224, true).parameter_count() == 4253864);
+  CHECK(backbone_kind("mobilenet_v2").graph(224, false).parameter_count() == 2257984);
+  CHECK(backbone_kind("mobilenet_v2").graph(224, true).parameter_count() == 3538984);
+  CHECK(random_backbone("mobilenet", "", 1).dimension() == 1024);
+  CHECK(random_backbone("mobilenet_v2", "avg_pool", 1).dimension() == 1280);
+  CHECK(sv_net({}).parameter_count() == 153186309);
+}
+
+TEST_CASE("an unknown backbone or layer is named with its nearest neighbour") {
+  CHECK_THROWS_WITH(backbone_kind("mobilenet_v3"), Catch::Contains("did you mean 'mobilenet_v2'?"));
+  CHECK_THROWS_WITH(random_backbone("mobilenet", "conv_pw_5_rely", 1),
+                    Catch::Contains("did you mean 'conv_pw_5_relu'?"));
+}
+
+TEST_CASE("folding batch norms and activations changes nothing but rounding") {
+  for (const char* name : {"mobilenet", "mobilenet_v2", "tiny_xception"}) {
+    const BackboneKind& kind = backbone_kind(name);
+    const Graph graph = kind.graph(64, false);
+    const Parameters parameters = drawn_parameters(graph);
+    const Tensor x = pictures(2, 64);
+    for (NodeId output = 1; output <= graph.output(); output += name == std::string("tiny_xception") ? 1 : 7) {
+      const FoldedGraph fast = folded(graph, parameters, output);
+      const Tensor expected = infer(graph, parameters, {x}, {output})[0];
+      const Tensor actual = infer(fast.graph, fast.parameters, {x}, {fast.graph.output()})[0];
+      REQUIRE(actual.shape() == expected.shape());
+      double difference = 0, norm = 0;
+      for (Index i = 0; i < expected.size(); ++i) {
+        const double d = actual.data<float>()[i] - expected.data<float>()[i];
+        difference += d * d;
+        norm += static_cast<double>(expected.data<float>()[i]) * expected.data<float>()[i];
+      }
+      INFO(name << ", layer " << graph.node(output).name);
+      CHECK(std::sqrt(difference) <= 2e-5 * std::sqrt(norm));
+    }
+    CHECK(folded(graph, parameters, graph.output()).graph.nodes().size() < graph.nodes().size() * 2 / 3);
+  }
+}
+
+TEST_CASE("angles are encoded as documented") {
+  float encoded[3];
+  encode_angles(AngleEncoding::radians, 90, 45, encoded);
+  CHECK(encoded[0] == Approx(-M_PI / 2));
+  CHECK(encoded[1] == Approx(-3 * M_PI / 4));
+  encode_angles(AngleEncoding::sphere, 90, 60, encoded);
+  CHECK(encoded[0] == Approx(0).margin(1e-7));
+  CHECK(encoded[1] == Approx(0.5));
+  CHECK(encoded[2] == Approx(std::sqrt(3) / 2));
+}
