@@ -21,7 +21,9 @@ void bias_clamp_rows(const float* bias, float low, float high, Index rows, Index
     for (; c + lanes <= columns; c += lanes) {
       auto value = hn::LoadU(d, y + c);
       if (bias != nullptr) value = hn::Add(value, hn::LoadU(d, bias + c));
-      hn::StoreU(hn::Min(at_most, hn::Max(at_least, value)), d, y + c);  // in this order NaN stays NaN
+      // Comparisons rather than Min and Max, which treat NaN differently on each instruction set: NaN stays NaN.
+      value = hn::IfThenElse(hn::Lt(value, at_least), at_least, value);
+      hn::StoreU(hn::IfThenElse(hn::Gt(value, at_most), at_most, value), d, y + c);
     }
     for (; c < columns; ++c) {
       const float value = bias != nullptr ? y[c] + bias[c] : y[c];

@@ -1,3 +1,5 @@
+#include "nn/kernels/adam/adam.h"
+
 #include <cmath>
 
 #include "base/parallel.h"
@@ -18,12 +20,18 @@ class Adam : public Optimizer {
 
   void step(const autograd::GradientMap& gradients, double learning_rate) override {
     const auto t = static_cast<double>(++steps);
-    const double rate = learning_rate * std::sqrt(1 - std::pow(options_.beta2, t)) / (1 - std::pow(options_.beta1, t));
+    const kernels::AdamStep step{
+        .rate = learning_rate * std::sqrt(1 - std::pow(options_.beta2, t)) / (1 - std::pow(options_.beta1, t)),
+        .beta1 = options_.beta1,
+        .beta2 = options_.beta2,
+        .epsilon = options_.epsilon};
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       const Tensor gradient = gradients.of(parameters_[i]);
-      if (gradient.defined())
-        with_dtype(gradient.dtype(),
-                   [&]<class T>() { update<T>(parameters_[i], gradient, first_[i], second_[i], rate); });
+      if (!gradient.defined()) continue;
+      with_dtype(gradient.dtype(), [&]<class T>() {
+        kernels::adam(Parallel::shared(), step, gradient.size(), gradient.data<T>(), parameters_[i].data<T>(),
+                      first_[i].data<T>(), second_[i].data<T>());
+      });
     }
   }
 
@@ -34,22 +42,6 @@ class Adam : public Optimizer {
   }
 
  private:
-  template <class T>
-  void update(Tensor& parameter, const Tensor& gradient, Tensor& first, Tensor& second, double rate) const {
-    T *p = parameter.data<T>(), *m = first.data<T>(), *v = second.data<T>();
-    const T* g = gradient.data<T>();
-    // Subtracted in double: 1 − β₂ in float is off by 1e-5.
-    const T follow1 = static_cast<T>(1 - options_.beta1), follow2 = static_cast<T>(1 - options_.beta2);
-    const T step_size = static_cast<T>(rate), epsilon = static_cast<T>(options_.epsilon);
-    Parallel::shared().for_chunks(parameter.size(), 1 << 14, [&](Index begin, Index end, int) {
-      for (Index i = begin; i < end; ++i) {
-        m[i] += (g[i] - m[i]) * follow1;
-        v[i] += (g[i] * g[i] - v[i]) * follow2;
-        p[i] -= step_size * m[i] / (std::sqrt(v[i]) + epsilon);
-      }
-    });
-  }
-
   std::vector<Tensor> parameters_, first_, second_;
   AdamOptions options_;
 };

@@ -1,0 +1,31 @@
+// head_step/batch:<n>: one training step of the paper's head (25088 features, width 4096) with Adam.
+#include <benchmark/benchmark.h>
+
+#include "models/sv_net.h"
+#include "nn/autograd.h"
+#include "nn/graph/run.h"
+#include "nn/ops/losses.h"
+#include "nn/optim/optimizer.h"
+
+namespace svnet {
+namespace {
+
+void head_step(benchmark::State& state) {
+  const Graph graph = sv_net({});
+  Parameters parameters = initial_parameters(graph, 1);
+  const auto optimizer = adam(trainable(graph, parameters));
+  const Tensor features = initialised(Initializer::lecun_normal, {state.range(0), 25088}, 1, 1000);
+  const Tensor angles = initialised(Initializer::lecun_normal, {state.range(0), 2}, 1, 1001);
+  const Tensor targets = Tensor::full({state.range(0), 1}, 0.5);
+  for (auto _ : state) {
+    const TrainingContext context{.seed = 1, .step = static_cast<std::uint64_t>(optimizer->steps)};
+    const Tensor score = train(graph, parameters, {features, angles}, {graph.output()}, context)[0];
+    autograd::GradientMap gradients;
+    autograd::backward(ops::mean_squared_error(score, targets), gradients);
+    optimizer->step(gradients, 1e-3);
+  }
+}
+BENCHMARK(head_step)->ArgName("batch")->Arg(32)->Unit(benchmark::kMillisecond)->UseRealTime();
+
+}  // namespace
+}  // namespace svnet
