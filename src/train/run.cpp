@@ -48,12 +48,14 @@ void Run::say(const std::string& line) const {
   if (messages_.line) messages_.line(line);
 }
 
-fs::path Run::features_path(const std::string& backbone, const std::string& layer) const {
-  return folder_ / ("features-" + backbone + (layer.empty() ? "" : "-" + layer) + ".h5");
+const Features& Run::features(const std::string& backbone, const std::string& layer) {
+  const fs::path path = folder_ / ("features-" + backbone + (layer.empty() ? "" : "-" + layer) + ".h5");
+  const auto found = features_.find(path);
+  return found != features_.end() ? found->second
+                                  : features_.emplace(path, made_features(path, backbone, layer)).first->second;
 }
 
-Features Run::features(const std::string& backbone, const std::string& layer) {
-  const fs::path path = features_path(backbone, layer);
+Features Run::made_features(const fs::path& path, const std::string& backbone, const std::string& layer) const {
   const auto source =
       backbone_from_folder(backbone, layer, config_.weights.folder, static_cast<std::uint64_t>(config_.seed));
   const FeaturesOrigin origin = features_origin(source, dataset_fingerprint_);

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "base/progress.h"
@@ -28,9 +29,9 @@ class Run {
   const ViewDataset& dataset() const { return dataset_; }
   const std::filesystem::path& folder() const { return folder_; }
 
-  /// "" stands for the pooled output.
-  Features features(const std::string& backbone, const std::string& layer);
-  Scores scores();
+  /// "" stands for the pooled output. Made, or read, once per run; the reference lives as long as the run.
+  const Features& features(const std::string& backbone, const std::string& layer);
+  const Scores& scores();
 
   enum class Resume { automatic, never };
   /// Trains, or goes on training where a checkpoint of the same run was left, and writes the model.
@@ -40,7 +41,8 @@ class Run {
   EvaluationTables evaluation(std::uint64_t problems, const std::optional<std::filesystem::path>& json = {});
 
  private:
-  std::filesystem::path features_path(const std::string& backbone, const std::string& layer) const;
+  Features made_features(const std::filesystem::path& path, const std::string& backbone,
+                         const std::string& layer) const;
   std::string model_fingerprint(const std::string& features_fingerprint, const std::string& scores_fingerprint) const;
   void train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume);
   std::vector<bool> validation_categories() const;
@@ -53,6 +55,8 @@ class Run {
   ViewDataset dataset_;
   std::vector<bool> held_out_;  // per category
   std::string dataset_fingerprint_;
+  std::map<std::filesystem::path, Features> features_;  // by their file
+  std::optional<Scores> scores_;
 };
 
 /// Every stage once, on a few views of each category, in a folder that is removed again. Throws what a real run would.

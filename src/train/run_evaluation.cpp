@@ -66,7 +66,7 @@ class ScratchFolder {
 
 EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optional<std::filesystem::path>& json) {
   const Model model = this->model();
-  const Scores scores = this->scores();
+  const Scores& scores = this->scores();
   const std::vector<double> predicted =
       predicted_scores(model, features(config_.sv_net.backbone, config_.sv_net.layer));
 
@@ -76,7 +76,7 @@ EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optiona
     const PipelineName parsed = parse_pipeline(name, "evaluation.pipelines");
     auto found = distances.find(parsed.backbone);
     if (found == distances.end()) {
-      const Features f =
+      const Features& f =
           features(parsed.backbone, parsed.backbone == config_.scores.backbone ? config_.scores.layer : std::string());
       found = distances
                   .emplace(parsed.backbone,

@@ -76,8 +76,8 @@ std::string Run::model_fingerprint(const std::string& features_fingerprint,
 }
 
 Model Run::model(Resume resume) {
-  const Scores scores = this->scores();
-  const Features features = this->features(config_.sv_net.backbone, config_.sv_net.layer);
+  const Scores& scores = this->scores();
+  const Features& features = this->features(config_.sv_net.backbone, config_.sv_net.layer);
   const std::string wanted = model_fingerprint(features.input_fingerprint, scores.input_fingerprint);
   const auto path = folder_ / "model.safetensors";
   if (std::filesystem::exists(path) && resume == Resume::automatic) try {

@@ -1,0 +1,163 @@
+#include "io/model_file.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "io/checkpoint.h"
+#include "io/graph_json.h"
+#include "io/safetensors.h"
+#include "io/tensor_file.h"
+#include "models/backbone.h"
+#include "nn/graph/run.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+namespace {
+
+Model small_model() {
+  const Backbone backbone = random_backbone("tiny_xception", "", 2);
+  Model model{.backbone = "tiny_xception",
+              .backbone_output = "avg_pool",
+              .preprocessing = backbone.preprocessing(),
+              .backbone_graph = backbone.graph(),
+              .backbone_parameters = backbone.parameters(),
+              .angles = AngleEncoding::sphere,
+              .head = sv_net({.features = backbone.dimension(), .width = 8, .angles = AngleEncoding::sphere}),
+              .head_parameters = {},
+              .input_fingerprint = "abc"};
+  model.head_parameters = initial_parameters(model.head, 4);
+  return model;
+}
+
+bool equal(const Tensor& a, const Tensor& b) {
+  return a.shape() == b.shape() &&
+         std::memcmp(a.data<float>(), b.data<float>(), static_cast<std::size_t>(a.size()) * sizeof(float)) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("a model comes back with the same bits") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  const Model model = small_model();
+  write_model(path, model);
+  const Model back = read_model(path);
+  CHECK(back.backbone == "tiny_xception");
+  CHECK(back.input_fingerprint == "abc");
+  CHECK(back.preprocessing.mode == PixelMode::tf);
+  CHECK(back.angles == AngleEncoding::sphere);
+  const Tensor image = Tensor::full({1, 96, 96, 3}, 0.5), angles = Tensor::full({1, 3}, 0.25);
+  const auto score = [&](const Model& m) {
+    const Tensor features =
+        infer(m.backbone_graph, m.backbone_parameters, {image}, {m.backbone_graph.find(m.backbone_output)})[0];
+    return infer(m.head, m.head_parameters, {features, angles}, {m.head.output()})[0];
+  };
+  CHECK(equal(score(model), score(back)));
+}
+
+TEST_CASE("every kind of layer survives JSON") {
+  Graph g;
+  const NodeId image = g.input("image", {16, 16, 3}), extra = g.input("extra", {2});
+  NodeId x = g.add("pad", ZeroPadding2dLayer{Padding::of(0, 1, 2, 3)}, {image});
+  x = g.add("conv",
+            Conv2dLayer{.filters = 4,
+                        .kh = 3,
+                        .kw = 2,
+                        .stride_h = 2,
+                        .stride_w = 1,
+                        .padding = Padding::same(),
+                        .activation = Activation::relu6},
+            {x});
+  x = g.add("dw",
+            DepthwiseConv2dLayer{.kh = 3, .kw = 3, .multiplier = 2, .padding = Padding::of(1, 0, 1, 0), .bias = false},
+            {x});
+  x = g.add("sep", SeparableConv2dLayer{.filters = 5, .kh = 3, .kw = 3}, {x});
+  x = g.add("bn", BatchNormLayer{{.momentum = 0.1, .epsilon = 1e-5, .convention = ops::MomentumConvention::pytorch}},
+            {x});
+  const NodeId a = g.add("act", ActivationLayer{Activation::sigmoid}, {x});
+  x = g.add("sum", AddLayer{}, {x, a});
+  x = g.add("max", Pool2dLayer{.kind = PoolKind::max, .window = {.kh = 2, .kw = 2, .stride_h = 2, .stride_w = 2}}, {x});
+  x = g.add("mean",
+            Pool2dLayer{.kind = PoolKind::average,
+                        .window = {.kh = 2, .kw = 2, .stride_h = 1, .stride_w = 1, .padding = Padding::same()}},
+            {x});
+  const NodeId flat = g.add("flat", FlattenLayer{}, {x});
+  const NodeId largest = g.add("gmax", GlobalPool2dLayer{.kind = PoolKind::max, .keep_dimensions = true}, {x});
+  const NodeId shaped = g.add("shaped", ReshapeLayer{{5}}, {largest});
+  const NodeId average = g.add("gavg", GlobalPool2dLayer{}, {x});
+  x = g.add("all", ConcatLayer{}, {flat, shaped, average, extra});
+  x = g.add("drop", DropoutLayer{0.25}, {x});
+  g.add("dense", DenseLayer{.units = 3, .bias = false, .activation = Activation::softmax}, {x});
+
+  const auto json = graph_to_json(g);
+  const Graph back = graph_from_json(json, "test");
+  CHECK(graph_to_json(back) == json);
+  REQUIRE(back.nodes().size() == g.nodes().size());
+  for (std::size_t i = 0; i < g.nodes().size(); ++i) CHECK(back.nodes()[i].shape == g.nodes()[i].shape);
+}
+
+TEST_CASE("a graph that is none is refused with its node and attribute") {
+  auto json = graph_to_json(sv_net({.features = 4, .width = 2}));
+  auto broken = json;
+  broken[2]["units"] = "many";
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 2 'mlp1_1_fc': attribute 'units': "));
+  broken = json;
+  broken[2]["kind"] = "Denze";
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"),
+                    Catch::Contains("unknown kind of layer 'Denze', did you mean 'Dense'?"));
+  broken = json;
+  broken[3]["inputs"] = {"nobody"};
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 3 'mlp1_1_bn': [graph] no layer 'nobody'"));
+}
+
+TEST_CASE("a file that is no model, or has other tensors, is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  write_checkpoint(path, {.input_fingerprint = "x", .metrics = "", .parameters = {}, .optimizer = {}});
+  CHECK_THROWS_WITH(read_model(path), path.string() + ": is a checkpoint, expected a model");
+
+  TensorFile wrong;
+  wrong.add("a", Tensor::zeros({2}));
+  const auto other = temporary.path() / "other.safetensors";
+  write_safetensors(other, {}, {});
+  CHECK_THROWS_WITH(read_model(other), Catch::Contains("not one that svnet wrote"));
+
+  Model model = small_model();
+  model.head_parameters.set("score/extra", Tensor::zeros({1}));
+  model.head_parameters.set("mlp1_1_fc/bias", Tensor::zeros({9}));
+  write_model(path, model);
+  CHECK_THROWS_WITH(read_model(path), path.string() + ": tensor 'head/mlp1_1_fc/bias' is 9, expected 8");
+  model = small_model();
+  model.head_parameters.at("mlp1_1_fc/bias").data<float>()[3] = std::nanf("");
+  write_model(path, model);
+  CHECK_THROWS_WITH(read_model(path),
+                    path.string() + ": tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3");
+}
+
+TEST_CASE("a checkpoint comes back") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "checkpoint.safetensors";
+  const Graph graph = sv_net({.features = 4, .width = 2});
+  const Checkpoint saved{.input_fingerprint = "f",
+                         .epoch = 3,
+                         .steps = 17,
+                         .best_loss = 0.125,
+                         .metrics = "a,b\n1,2\n",
+                         .parameters = initial_parameters(graph, 1),
+                         .optimizer = {Tensor::full({2, 2}, 0.5)}};
+  CHECK(read_checkpoint_fingerprint(path).empty());
+  write_checkpoint(path, saved);
+  CHECK(read_checkpoint_fingerprint(path) == "f");
+  const Checkpoint back = read_checkpoint(path, graph, {Tensor::zeros({2, 2})});
+  CHECK(back.epoch == 3);
+  CHECK(back.steps == 17);
+  CHECK(back.best_loss == 0.125);
+  CHECK(back.metrics == saved.metrics);
+  CHECK(equal(back.optimizer[0], saved.optimizer[0]));
+  for (const auto& [name, value] : saved.parameters.items()) CHECK(equal(back.parameters.at(name), value));
+  CHECK_THROWS_WITH(read_checkpoint(path, graph, {Tensor::zeros({3})}),
+                    Catch::Contains("tensor 'optimizer/0' is 2x2, expected 3"));
+}

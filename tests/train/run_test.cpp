@@ -1,0 +1,161 @@
+#include "train/run.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/parallel.h"
+#include "io/file_hash.h"
+#include "small_dataset.h"
+
+using namespace svnet;
+
+namespace {
+
+Config small_config(const std::filesystem::path& data) {
+  Config config;
+  config.seed = 3;
+  config.dataset.root = data;
+  config.dataset.held_out = {"ring"};
+  config.scores.backbone = config.sv_net.backbone = "tiny_xception";
+  config.scores.problems = 300;
+  config.scores.min_categories = 2;
+  config.sv_net.width = 16;
+  config.sv_net.dropout = 0.5;
+  config.training.epochs = 4;
+  config.training.batch_size = 5;
+  config.evaluation.problems = 40;
+  config.evaluation.pipelines = {"tiny_xception_ward", "tiny_xception_kmeans"};
+  return config;
+}
+
+struct Log {
+  std::vector<std::string> lines;
+  Messages messages{.line = [this](std::string_view line) { lines.emplace_back(line); }, .progress = {}};
+  bool has(const std::string& part) const {
+    for (const auto& line : lines)
+      if (line.find(part) != std::string::npos) return true;
+    return false;
+  }
+};
+
+/// Trains and evaluates in `folder` and returns the hashes of all results.
+std::vector<std::string> results(const Config& config, const std::filesystem::path& folder, const Messages& messages) {
+  Run(config, read_view_dataset(config.dataset.root), folder, messages).evaluation(40);
+  std::vector<std::string> hashes;
+  for (const char* name : {"features-tiny_xception.h5", "scores.h5", "checkpoint-last.safetensors",
+                           "checkpoint-best.safetensors", "metrics.csv", "model.safetensors", "evaluation.json"})
+    hashes.push_back(file_sha256(folder / name));
+  return hashes;
+}
+
+}  // namespace
+
+TEST_CASE("a run gives the same bits for any number of threads, and its stages are reused") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  const int threads_before = Parallel::shared().threads();
+  std::vector<std::string> expected;
+  for (int threads : {1, 2, 8}) {
+    Parallel::shared().resize(threads);
+    Log log;
+    const auto folder = temporary.path() / ("run" + std::to_string(threads));
+    const auto hashes = results(config, folder, log.messages);
+    if (expected.empty()) expected = hashes;
+    CHECK(hashes == expected);
+    CHECK_FALSE(log.has("reused"));
+
+    Log again;
+    CHECK(results(config, folder, again.messages) == expected);
+    for (const char* stage : {"features of tiny_xception: reused", "scores: reused", "SV-net: reused"})
+      CHECK(again.has(stage));
+    CHECK_FALSE(again.has("epoch"));
+  }
+  Parallel::shared().resize(threads_before);
+}
+
+TEST_CASE("what changes runs again, and only what follows from it") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  Log first;
+  const auto before = results(config, temporary.path() / "run", first.messages);
+  config.training.learning_rate = 2e-3;
+  Log log;
+  const auto after = results(config, temporary.path() / "run", log.messages);
+  CHECK(log.has("features of tiny_xception: reused"));
+  CHECK(log.has("scores: reused"));
+  CHECK(log.has("epoch 4/4"));
+  CHECK(after[0] == before[0]);
+  CHECK(after[1] == before[1]);
+  CHECK(after[5] != before[5]);
+}
+
+TEST_CASE("an interrupted training goes on to the same bits") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  const auto expected = results(config, temporary.path() / "whole", {});
+  struct Stop {};
+  // The line of an epoch comes before its checkpoint is written: the third epoch is lost and done again.
+  const Messages stopping{.line =
+                              [](std::string_view line) {
+                                if (line.starts_with("epoch 3/")) throw Stop{};
+                              },
+                          .progress = {}};
+  CHECK_THROWS_AS(results(config, temporary.path() / "run", stopping), Stop);
+  CHECK_FALSE(std::filesystem::exists(temporary.path() / "run/model.safetensors"));
+  Log log;
+  CHECK(results(config, temporary.path() / "run", log.messages) == expected);
+  CHECK(log.has("training: goes on after epoch 2"));
+}
+
+TEST_CASE("a damaged stage is made again") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  const auto expected = results(config, temporary.path() / "run", {});
+  for (const char* name : {"features-tiny_xception.h5", "scores.h5", "model.safetensors"})
+    std::filesystem::resize_file(temporary.path() / "run" / name,
+                                 std::filesystem::file_size(temporary.path() / "run" / name) / 2);
+  Log log;
+  CHECK(results(config, temporary.path() / "run", log.messages) == expected);
+  CHECK(log.has("made again"));
+}
+
+TEST_CASE("scores leave out held-out categories") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  Run run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {});
+  const Scores& scores = run.scores();
+  for (std::size_t i = 0; i < scores.paths.size(); ++i) {
+    const bool held_out = scores.paths[i].starts_with("ring/");
+    CHECK((scores.count[i] == 0) == held_out);
+    CHECK(std::isnan(scores.scaled[i]) == held_out);
+  }
+}
+
+TEST_CASE("a dry run leaves nothing behind") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  Log log;
+  dry_run(config, read_view_dataset(config.dataset.root), log.messages);
+  CHECK(log.has("epoch 1/1"));
+}
+
+TEST_CASE("a configuration that does not fit the dataset is refused") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  const auto run = [&] { Run(config, dataset, temporary.path() / "run", {}).model(); };
+  config.dataset.held_out = {"rings"};
+  CHECK_THROWS_WITH(run(), "dataset.held_out: the dataset has no category 'rings', did you mean 'ring'?");
+  config.dataset.held_out = {"ring", "cube", "cone"};
+  CHECK_THROWS_WITH(run(), "dataset.held_out: leaves 1 categories to train on, at least 2 are needed");
+  config.dataset.held_out = {"ring"};
+  config.training.validation_categories = 2;
+  CHECK_THROWS_WITH(run(), "training.validation_categories: 2 of 3 training categories leave fewer than 2 to train on");
+}
