@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <sched.h>
+#include <unistd.h>
 
 #include "base/error.h"
 
@@ -89,6 +90,10 @@ struct Parallel::Pool {
   std::uint64_t generation = 0;
   int running = 0;
   bool stop = false;
+  const pid_t process = getpid();
+
+  /// A forked process has no helpers, only their handles: there is nobody to wake and nobody to join.
+  bool forked() const { return getpid() != process; }
 
   void start(int count) {
     threads = count;
@@ -122,13 +127,22 @@ struct Parallel::Pool {
 
 Parallel::Parallel(int threads) : pool_(std::make_unique<Pool>()) { pool_->start(checked_threads(threads, "threads")); }
 
-Parallel::~Parallel() { pool_->join(); }
+Parallel::~Parallel() {
+  if (pool_->forked())
+    static_cast<void>(pool_.release());  // its threads can be neither joined nor destroyed
+  else
+    pool_->join();
+}
 
 int Parallel::threads() const { return pool_->threads; }
 
 void Parallel::resize(int threads) {
   checked_threads(threads, "threads");
   check(!inside_body, "[threads] cannot change the number of threads from inside a parallel body");
+  if (pool_->forked()) {
+    pool_->threads = threads;
+    return;
+  }
   std::lock_guard call(pool_->call);
   pool_->join();
   pool_->start(threads);
@@ -140,7 +154,7 @@ void Parallel::for_chunks(Index count, Index chunk, const Body& body) {
   const Index chunks = (count + chunk - 1) / chunk;
   Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = &body};
   std::unique_lock call(pool_->call, std::defer_lock);
-  if (chunks > 1 && !inside_body && call.try_lock() && !pool_->helpers.empty()) {
+  if (chunks > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
     {
       std::lock_guard lock(pool_->mutex);
       pool_->job = &job;

@@ -9,8 +9,8 @@ namespace svnet {
 /// A thread pool that cuts ranges into chunks whose boundaries never depend on the number of threads, so that work
 /// which writes per chunk, or sums per chunk in order, gives the same bits for any number of threads.
 ///
-/// Safe to call from several threads: a call that finds the pool busy, or comes from inside one of its own bodies,
-/// runs all its chunks on the calling thread.
+/// Safe to call from several threads: a call that finds the pool busy, comes from inside one of its own bodies, or from
+/// a process forked off the one that made the pool, runs all its chunks on the calling thread.
 class Parallel {
  public:
   /// body(begin, end, worker): `worker` is in [0, threads()) and no two bodies run with the same worker at once

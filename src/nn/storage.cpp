@@ -9,7 +9,12 @@ namespace svnet {
 namespace {
 
 constexpr std::align_val_t kAlignment{64};
-constexpr std::size_t kSmallest = std::size_t{64} << 10, kMostKept = std::size_t{256} << 20;
+constexpr std::size_t kSmallest = std::size_t{64} << 10;
+#ifdef __SANITIZE_ADDRESS__
+constexpr std::size_t kMostKept = 0;  // a use after free must be seen
+#else
+constexpr std::size_t kMostKept = std::size_t{256} << 20;
+#endif
 
 /// Freed blocks by size. Blocks of a shared pointer may outlive every other static object, so this one is never
 /// destroyed.

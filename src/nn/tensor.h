@@ -69,9 +69,11 @@ class Tensor {
     return static_cast<T*>(storage_.get());
   }
   template <class T>
-  std::span<const T> values() const {
+  std::span<const T> values() const& {
     return {data<T>(), static_cast<std::size_t>(size_)};
   }
+  template <class T>
+  std::span<const T> values() const&& = delete;  // the numbers would be gone
   /// The only element of a tensor of one element.
   double item() const;
 
