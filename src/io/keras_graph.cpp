@@ -97,10 +97,6 @@ void fill(const std::filesystem::path& path, std::size_t position, const GraphNo
 
 Parameters filled(const std::filesystem::path& path, std::vector<FileLayer> layers, const Graph& graph,
                   const std::vector<NodeId>& order, KerasLoadReport* report) {
-  std::vector<std::string> missing;
-  for (std::size_t i = layers.size(); i < order.size(); ++i) missing.push_back(graph.node(order[i]).name);
-  check(missing.empty(), path.string(), ": has ", layers.size(), " layers with weights, the model needs ", order.size(),
-        "; missing: ", joined_with(", ", missing));
   Parameters parameters;
   KerasLoadReport made;
   for (std::size_t i = 0; i < layers.size(); ++i) {
@@ -115,6 +111,11 @@ Parameters filled(const std::filesystem::path& path, std::vector<FileLayer> laye
     fill(path, i, node, layers[i], parameters);
     made.loaded.push_back(node.name);
   }
+  // Last, because weights of another model are better told by their first layer that does not fit.
+  std::vector<std::string> missing;
+  for (std::size_t i = layers.size(); i < order.size(); ++i) missing.push_back(graph.node(order[i]).name);
+  check(missing.empty(), path.string(), ": has ", layers.size(), " layers with weights, the model needs ", order.size(),
+        "; missing: ", joined_with(", ", missing));
   if (report != nullptr) *report = std::move(made);
   return parameters;
 }

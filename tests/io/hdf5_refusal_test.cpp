@@ -165,6 +165,38 @@ TEST_CASE("many rows that share one long string are refused") {
                     Contains("shared.h5: dataset 'texts': its strings are longer than the file"));
 }
 
+TEST_CASE("compound types are refused, and objects that have them are named") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "compound.h5";
+  {
+    const RawFile file(path);
+    const hid_t pair = H5Tcreate(H5T_COMPOUND, 16);
+    H5Tinsert(pair, "x", 0, H5T_NATIVE_DOUBLE);
+    H5Tinsert(pair, "y", 8, H5T_NATIVE_DOUBLE);
+    file.dataset("pairs", {2}, pair);
+    file.floats("floats");
+  }
+  const Hdf5File file = Hdf5File::open(path);
+  CHECK(file.read<float>("floats").values.size() == 64);
+  CHECK_THROWS_WITH(file.read<float>("pairs"),
+                    Contains("compound.h5: 'pairs': its header is damaged, or holds a comp"));
+}
+
+TEST_CASE("an attribute that declares more than its header holds is refused") {
+  const TemporaryFolder folder;
+  std::string bytes = file_contents(SVNET_FIXTURES "/io/keras2_split.h5");
+  // Dataspace of rank 1 (version 1) with 2 values, as the message of weight_names of fc1 has it.
+  const std::size_t name = bytes.find("weight_names\0", bytes.find("fc1/kernel:0") - 200);
+  REQUIRE(name != std::string::npos);
+  const std::size_t values = bytes.find("fc1/kernel:0", name);
+  REQUIRE(values - name < 100);
+  const std::size_t count = bytes.find(std::string("\2\0\0\0\0\0\0\0", 8), name);
+  REQUIRE(count < values);
+  bytes[count] = 100;
+  CHECK_THROWS_WITH(Hdf5File::open(folder.write("damaged.h5", bytes)).text_list_attribute("fc1", "weight_names"),
+                    Contains("damaged.h5: ") && Contains("'fc1'") && Contains("its header is damaged"));
+}
+
 TEST_CASE("HDF5 prints nothing of its own, and its printing is left as it was") {
   H5E_auto2_t before = nullptr, after = nullptr;
   void *before_data = nullptr, *after_data = nullptr;

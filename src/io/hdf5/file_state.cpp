@@ -1,8 +1,13 @@
 #include "file_state.h"
 
 #include <algorithm>
+#include <cerrno>
+#include <system_error>
+
+#include <unistd.h>
 
 #include "../printable.h"
+#include "object_header.h"
 
 namespace svnet::hdf5 {
 
@@ -78,7 +83,53 @@ void check_size(const File& file, const Handle& dataset, const Handle& creation,
                  " are stored; the file is incomplete or damaged");
 }
 
+// Objects have an address up to HDF5 1.10; later ones give tokens, and check what they decode.
+#if H5_VERSION_GE(1, 12, 0)
+void check_root_header(const File&, const Handle&, const std::string&) {}
+void check_linked_header(const File&, const H5L_info_t&, const std::string&) {}
+#else
+void check_root_header(const File& file, const Handle& root, const std::string& where) {
+  if (file.descriptor < 0) return;
+  H5O_info_t info;
+  file.done(H5Oget_info(root.id(), &info), where, "cannot be opened");
+  check_object_header(file, info.addr, where);
+}
+void check_linked_header(const File& file, const H5L_info_t& link, const std::string& where) {
+  if (file.descriptor >= 0) check_object_header(file, link.u.address, where);
+}
+#endif
+
 }  // namespace
+
+void File::look_up_layout() {
+  const Handle creation(H5Fget_create_plist(file.id()), H5Pclose);
+  hsize_t user_block = 0;
+  std::size_t address_size = 0, length_size = 0;
+  void* handle = nullptr;
+  const bool known = H5Pget_userblock(creation.id(), &user_block) >= 0 &&
+                     H5Pget_sizes(creation.id(), &address_size, &length_size) >= 0 &&
+                     H5Fget_vfd_handle(file.id(), H5P_DEFAULT, &handle) >= 0 && handle;
+  if (!known) fail(name, ": cannot be read: ", reason());
+  check(address_size == 8 && length_size == 8, name, ": has addresses of ", address_size, " and lengths of ",
+        length_size, " bytes, only 8 are supported");
+  base = user_block;
+  descriptor = *static_cast<const int*>(handle);
+}
+
+std::vector<char> File::bytes(std::uint64_t address, std::uint64_t count, const std::string& where) const {
+  if (address > size || base > size - address || count > size - address - base)
+    fail_at(where, "lies outside the file in part; the file is damaged");
+  std::vector<char> result(count);
+  for (std::uint64_t done = 0; done < count;) {
+    const ssize_t got =
+        ::pread(descriptor, result.data() + done, count - done, static_cast<off_t>(base + address + done));
+    if (got < 0 && errno == EINTR) continue;
+    if (got <= 0)
+      fail_at(where, "cannot be read: ", got < 0 ? std::generic_category().message(errno) : "the file ends");
+    done += static_cast<std::uint64_t>(got);
+  }
+  return result;
+}
 
 Extent File::extent(hid_t space, const std::string& where) const {
   if (H5Sget_simple_extent_type(space) == H5S_NULL) return {{0}, 0};
@@ -102,6 +153,7 @@ Handle File::object(const std::string& path) const {
   const std::string where = object_place(path);
   Handle current(H5Oopen(file.id(), "/", H5P_DEFAULT), H5Oclose);
   done(current.id(), where, "cannot be opened");
+  check_root_header(*this, current, where);
   for (const std::string& part : path_parts(path)) {
     if (H5Iget_type(current.id()) != H5I_GROUP) fail_at(where, "is missing");
     if (done(H5Lexists(current.id(), part.c_str(), H5P_DEFAULT), where, "cannot be looked up") == 0)
@@ -110,6 +162,7 @@ Handle File::object(const std::string& path) const {
     done(H5Lget_info(current.id(), part.c_str(), &link, H5P_DEFAULT), where, "cannot be looked up");
     if (link.type != H5L_TYPE_HARD)
       fail_at(where, "is reached through a soft or external link; these are not followed, store the object itself");
+    check_linked_header(*this, link, where);
     Handle next(H5Oopen(current.id(), part.c_str(), H5P_DEFAULT), H5Oclose);
     done(next.id(), where, "cannot be opened");
     current = std::move(next);

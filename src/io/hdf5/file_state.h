@@ -31,7 +31,9 @@ struct Extent {
 struct File {
   std::string name;        // in messages
   std::uint64_t size = 0;  // in bytes, of a file that is read
-  Handle file;
+  int descriptor = -1;     // of a file that is read
+  std::uint64_t base = 0;  // where addresses count from: a file may begin with a block that is not HDF5's
+  Handle file;             // last: closed first
 
   /// Throws "FILE: WHERE: parts".
   template <class... Parts>
@@ -44,6 +46,11 @@ struct File {
     if (result < 0) fail_at(where, what, ": ", reason());
     return result;
   }
+
+  /// Finds out descriptor and base of a file that was opened for reading.
+  void look_up_layout();
+  /// Bytes of a file that is read, as they lie there.
+  std::vector<char> bytes(std::uint64_t address, std::uint64_t count, const std::string& where) const;
 
   /// Follows hard links from the root; fails if a part of the path is missing or a link of another kind.
   Handle object(const std::string& path) const;

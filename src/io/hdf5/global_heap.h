@@ -24,7 +24,7 @@ Handle text_reference_type();
 /// The strings of a file's global heap ("HDF5 File Format Specification" 3.0, III.E), every length checked.
 class GlobalHeap {
  public:
-  explicit GlobalHeap(const File& file);
+  explicit GlobalHeap(const File& file) : file_(file), text_left_(file.size) {}
   /// Throws Error that names `where` if the reference leads nowhere, or if more text was asked for than the file holds.
   std::string text(const TextReference& reference, const std::string& where);
 
@@ -34,12 +34,9 @@ class GlobalHeap {
     std::map<std::uint32_t, std::span<const char>> objects;
   };
   const Collection& collection(std::uint64_t address, const std::string& where);
-  std::vector<char> read_bytes(std::uint64_t address, std::uint64_t size, const std::string& where) const;
 
   const File& file_;
-  int descriptor_ = -1;
-  std::uint64_t base_ = 0;  // of addresses: files may begin with a block that is not HDF5's
-  std::uint64_t text_left_ = 0;
+  std::uint64_t text_left_;
   std::map<std::uint64_t, Collection> collections_;
 };
 

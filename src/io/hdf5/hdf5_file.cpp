@@ -77,6 +77,7 @@ Hdf5File Hdf5File::open(const fs::path& path) {
   const Handle access = access_properties();
   state->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (state->file.id() < 0) fail(path.string(), ": damaged or incomplete HDF5 file: ", hdf5::reason());
+  state->look_up_layout();
   return Hdf5File(std::move(state));
 }
 

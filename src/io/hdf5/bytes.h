@@ -1,0 +1,40 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "base/error.h"
+
+namespace svnet::hdf5 {
+
+/// Bytes of a file that are read from front to back. What goes beyond their end throws Error with `message`, which must
+/// outlive this.
+class Bytes {
+ public:
+  Bytes(std::span<const char> bytes, std::string_view message) : bytes_(bytes), message_(message) {}
+
+  std::uint64_t size() const { return bytes_.size(); }
+  [[noreturn]] void refuse() const { fail(message_); }
+
+  /// Little endian, of 1 to 8 bytes.
+  std::uint64_t number(std::uint64_t size) {
+    std::uint64_t value = 0;
+    const std::span<const char> digits = take(size);
+    for (std::uint64_t i = size; i-- > 0;) value = value << 8 | static_cast<unsigned char>(digits[i]);
+    return value;
+  }
+  void skip(std::uint64_t size) { take(size); }
+  Bytes part(std::uint64_t size) { return {take(size), message_}; }
+  std::span<const char> take(std::uint64_t size) {
+    if (size > bytes_.size()) refuse();
+    const std::span<const char> front = bytes_.first(size);
+    bytes_ = bytes_.subspan(size);
+    return front;
+  }
+
+ private:
+  std::span<const char> bytes_;
+  std::string_view message_;
+};
+
+}  // namespace svnet::hdf5

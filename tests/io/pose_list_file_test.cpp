@@ -1,0 +1,44 @@
+#include "io/pose_list_file.h"
+
+#include <catch2/catch.hpp>
+
+#include "base/error.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+TEST_CASE("poses are read from CSV") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("poses.csv", "theta,phi\r\n0,45\r\n\r\n -22.5 ,\t6e1\r\n720,90");
+  CHECK(read_pose_list(path) == std::vector<Pose>{{0, 45}, {-22.5, 60}, {720, 90}});
+}
+
+TEST_CASE("a pose list that is none is refused with file and line") {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& contents) {
+    const auto path = folder.write("poses.csv", contents);
+    try {
+      read_pose_list(path);
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      REQUIRE(text.rfind(path.string(), 0) == 0);
+      return text.substr(path.string().size());
+    }
+    return std::string("accepted");
+  };
+  const std::string not_two = "' is not two numbers, theta and phi in degrees, with a comma between them";
+  CHECK(message("phi,theta\n45,0\n") == ":1: the header is 'phi,theta', expected 'theta,phi'");
+  CHECK(message("\n0,45\n") == ":2: the header is '0,45', expected 'theta,phi'");
+  CHECK(message("theta,phi\n0,45\n0 45\n") == ":3: '0 45" + not_two);
+  CHECK(message("theta,phi\n0,45,1\n") == ":2: '0,45,1" + not_two);
+  CHECK(message("theta,phi\n0,\n") == ":2: '0," + not_two);
+  CHECK(message("theta,phi\n0,4\x1b"
+                "5\n") == ":2: '0,4?5" + not_two);
+  CHECK(message("theta,phi\n\n0,95\n") == ":3: phi 95 is outside [0, 90] degrees");
+  CHECK(message("theta,phi\nnan,45\n") == ":2: theta nan is not finite");
+  CHECK(message("theta,phi\n") == ": holds no pose; expected the header 'theta,phi' and a line for each pose");
+  CHECK(message("") == ": holds no pose; expected the header 'theta,phi' and a line for each pose");
+  CHECK_THROWS_WITH(read_pose_list(folder.path() / "none.csv"), Catch::EndsWith("none.csv: cannot be read; expected a "
+                                                                                "CSV file of poses"));
+  CHECK_THROWS_WITH(read_pose_list(folder.path()), Catch::Contains(": cannot be read"));
+}
