@@ -12,7 +12,7 @@ using namespace svnet;
 namespace {
 
 int make(const std::string& arguments) {
-  return WEXITSTATUS(std::system((DEMO_DATA " --quiet --size 32 --objects 1 " + arguments + " >/dev/null").c_str()));
+  return WEXITSTATUS(std::system((DEMO_DATA " --quiet --size 16 --objects 1 " + arguments + " >/dev/null").c_str()));
 }
 
 std::map<std::string, std::string> contents(const std::filesystem::path& root) {
@@ -38,12 +38,12 @@ TEST_CASE("the demonstration's pictures are whole poses, the same for any number
   CHECK(contents(three) == files);
   CHECK(contents(other) != files);
   const Image image = read_image(one + "/mug/1/1/90_90.png");
-  CHECK(image.height == 32);
-  CHECK(image.width == 32);
+  CHECK(image.height == 16);
+  CHECK(image.width == 16);
   // The table at the edges, something else in the middle.
-  const auto pixel = [&](Index y, Index x) { return image.rgb.data() + 3 * (y * 32 + x); };
-  CHECK(std::equal(pixel(0, 0), pixel(0, 0) + 3, pixel(31, 0)));
-  CHECK_FALSE(std::equal(pixel(0, 0), pixel(0, 0) + 3, pixel(16, 16)));
+  const auto pixel = [&](Index y, Index x) { return image.rgb.data() + 3 * (y * 16 + x); };
+  CHECK(std::equal(pixel(0, 0), pixel(0, 0) + 3, pixel(15, 0)));
+  CHECK_FALSE(std::equal(pixel(0, 0), pixel(0, 0) + 3, pixel(8, 8)));
 
   CHECK(make("--output " + one + " 2>" + other + "/message") == 1);
   CHECK(file_contents(other + "/message") ==

@@ -1,0 +1,135 @@
+#include "arguments.h"
+
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace svnet::python {
+namespace {
+
+namespace py = pybind11;
+
+/// The given as an array of any dtype, strides and byte order.
+py::array any_array(const char* function, const char* argument, const py::object& given, const char* expected) {
+  py::array array = py::array::ensure(given);  // clears Python's error where it fails: rows of unequal length
+  check(static_cast<bool>(array), "[", function, "] ", argument, " is not an array; expects ", expected);
+  return array;
+}
+
+std::string shape_text(const py::array& array) {
+  std::string text = "(";
+  for (py::ssize_t axis = 0; axis < array.ndim(); ++axis)
+    text += (axis > 0 ? ", " : "") + std::to_string(array.shape(axis));
+  return text + (array.ndim() == 1 ? ",)" : ")");
+}
+
+std::string dtype_text(const py::array& array) { return py::str(array.dtype()); }
+
+bool is_integer(const py::array& array) {
+  const char kind = array.dtype().kind();
+  return kind == 'i' || kind == 'u' || kind == 'b';
+}
+
+void check_numbers(const char* function, const char* argument, const py::array& array) {
+  check(is_integer(array) || array.dtype().kind() == 'f', "[", function, "] ", argument, " has dtype ",
+        dtype_text(array), "; expects integers or floats");
+}
+
+/// Whether every value of the dtype is a float32.
+bool fits_float(const py::array& array) { return array.itemsize() <= (is_integer(array) ? 2 : 4); }
+
+std::string repr(const py::object& given) {
+  std::string text = py::repr(given);
+  constexpr std::size_t kLongest = 60;
+  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+}
+
+}  // namespace
+
+GivenFeatures::GivenFeatures(const char* function, const py::object& given) {
+  const py::array array = any_array(function, "features", given, "numbers (N, D)");
+  check_numbers(function, "features", array);
+  check(array.ndim() == 2 && array.size() > 0, "[", function, "] features have shape ", shape_text(array),
+        "; expects (N, D), one row per item, and at least one");
+  rows_ = array.shape(0);
+  columns_ = array.shape(1);
+  if (fits_float(array))
+    values_ = Array<float>(array);
+  else
+    values_ = Array<double>(array);
+}
+
+DistanceMatrix GivenFeatures::squared_distances(Parallel& parallel) const {
+  return std::visit(
+      [&](const auto& values) { return svnet::squared_distances(values.data(), rows_, columns_, parallel); }, values_);
+}
+
+GivenLabels::GivenLabels(const char* function, const char* argument, const py::object& given) {
+  const py::array array = any_array(function, argument, given, "integers (N)");
+  check_numbers(function, argument, array);
+  check(array.ndim() == 1, "[", function, "] ", argument, " has shape ", shape_text(array), "; expects (N,)");
+  if (array.dtype().kind() == 'f') {
+    const Array<double> values(array);
+    for (py::ssize_t i = 0; i < values.size(); ++i)
+      check(std::abs(values.at(i)) <= 0x1p53 && values.at(i) == std::trunc(values.at(i)), "[", function, "] ", argument,
+            "[", i, "] is ", values.at(i), "; expects whole numbers");
+  } else if (array.dtype().kind() == 'u' && array.itemsize() == 8) {
+    const Array<std::uint64_t> values(array);
+    for (py::ssize_t i = 0; i < values.size(); ++i)
+      check(values.at(i) <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()), "[", function, "] ",
+            argument, "[", i, "] is ", values.at(i), ", beyond int64");
+  }
+  values_ = Array<std::int64_t>(array);
+}
+
+Array<std::uint8_t> images(const char* function, const py::object& given) {
+  const py::array array = any_array(function, "images", given, "uint8 (N, H, W, 3)");
+  check(array.dtype().kind() == 'u' && array.itemsize() == 1, "[", function, "] images have dtype ", dtype_text(array),
+        "; expects uint8, grey levels from 0 to 255, not yet preprocessed");
+  check(array.ndim() == 4 && array.shape(3) == 3, "[", function, "] images have shape ", shape_text(array),
+        "; expects (N, H, W, 3), RGB", array.ndim() == 3 ? "; for one image pass image[None]" : "");
+  return Array<std::uint8_t>(array);
+}
+
+std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
+  const auto refuse = [&] [[noreturn]] (const char* upper) {
+    fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to ", upper);
+  };
+  const auto integer = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
+  if (!integer) {
+    PyErr_Clear();
+    refuse("2^64 - 1");
+  }
+  const std::uint64_t value = PyLong_AsUnsignedLongLong(integer.ptr());
+  if (PyErr_Occurred() != nullptr) {
+    PyErr_Clear();
+    refuse("2^64 - 1");
+  }
+  if (value < lowest) refuse("2^64 - 1");
+  return value;
+}
+
+Index count_of(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
+  const std::uint64_t value = whole_number(function, argument, given, lowest);
+  check(value <= static_cast<std::uint64_t>(std::numeric_limits<Index>::max()), "[", function, "] ", argument, " is ",
+        value, ", beyond 2^63 - 1");
+  return static_cast<Index>(value);
+}
+
+std::string path(const char* function, const char* argument, const py::object& given) {
+  PyObject* encoded = nullptr;
+  if (PyUnicode_FSConverter(given.ptr(), &encoded) == 0) {
+    PyErr_Clear();
+    fail("[", function, "] ", argument, " is ", repr(given), "; expects a path");
+  }
+  return py::reinterpret_steal<py::bytes>(encoded);
+}
+
+py::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels) {
+  py::array_t<std::int64_t> array(static_cast<py::ssize_t>(labels.size()));
+  std::copy(labels.begin(), labels.end(), array.mutable_data());
+  return array;
+}
+
+}  // namespace svnet::python

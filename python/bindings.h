@@ -1,0 +1,12 @@
+#pragma once
+#include <pybind11/pybind11.h>
+
+namespace svnet::python {
+
+// What each file of this folder adds to the module svnet._svnet.
+void bind_clustering(pybind11::module_& module);
+void bind_cluster_metrics(pybind11::module_& module);
+void bind_scores(pybind11::module_& module);
+void bind_backbone(pybind11::module_& module);
+
+}  // namespace svnet::python

@@ -1,0 +1,101 @@
+#include "arguments.h"
+#include "base/error.h"
+#include "bindings.h"
+#include "computing.h"
+#include "semantics/clusterer.h"
+
+namespace svnet::python {
+namespace {
+
+namespace py = pybind11;
+
+std::vector<std::int32_t> all_rows(Index n) {
+  std::vector<std::int32_t> rows(static_cast<std::size_t>(n));
+  for (Index i = 0; i < n; ++i) rows[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i);
+  return rows;
+}
+
+constexpr const char* kWardDoc = R"(ward(features, n_clusters)
+--
+
+Agglomerative clustering with Ward's linkage, the partition of scikit-learn's
+AgglomerativeClustering(n_clusters, linkage="ward").
+
+Parameters
+----------
+features : (N, D) array of integers or floats, any strides
+n_clusters : int from 1 to N
+
+Returns
+-------
+labels : (N,) int64, numbered from 0 in order of first appearance
+
+Raises
+------
+svnet.Error where shapes, types or numbers do not fit, and for features that are not finite.
+)";
+
+py::array_t<std::int64_t> ward(const py::object& given, const py::object& n_clusters) {
+  const GivenFeatures features("ward", given);
+  const Index k = count_of("ward", "n_clusters", n_clusters);
+  std::vector<std::int32_t> labels(static_cast<std::size_t>(features.rows()));
+  {
+    const Computing computing;
+    const auto distances = features.squared_distances(Parallel::shared());
+    Agglomerative(Linkage::ward, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
+  }
+  return label_array(labels);
+}
+
+constexpr const char* kKMeansDoc = R"(kmeans(features, n_clusters, n_init=10, seed=0)
+--
+
+k-means with the semantics of scikit-learn's KMeans(algorithm="lloyd"): greedy k-means++ with 2 + floor(ln k) trials,
+then Lloyd, at most 300 iterations, tolerance 1e-4; of n_init runs the one with the lowest inertia.
+
+Parameters
+----------
+features : (N, D) array of integers or floats, any strides
+n_clusters : int from 1 to N
+n_init : int from 1
+seed : int from 0 to 2^64 - 1; the same seed gives the same result, whatever the number of threads
+
+Returns
+-------
+labels : (N,) int64, numbered from 0 in order of first appearance; fewer than n_clusters where there are fewer
+    distinct rows
+inertia : float, the sum of squared distances to the nearest centre
+
+Raises
+------
+svnet.Error where shapes, types or numbers do not fit, and for features that are not finite.
+)";
+
+py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py::object& n_init,
+                 const py::object& given_seed) {
+  const GivenFeatures features("kmeans", given);
+  const Index n = features.rows(), k = count_of("kmeans", "n_clusters", n_clusters);
+  const KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init)};
+  const std::uint64_t seed = whole_number("kmeans", "seed", given_seed);
+  // Before memory is made for k clusters.
+  check(k <= n, "[kmeans] cannot make ", k, " clusters of ", n, " points; 1 to ", n, " are possible");
+  std::vector<std::int32_t> labels(static_cast<std::size_t>(n));
+  double inertia;
+  {
+    const Computing computing;
+    const auto distances = features.squared_distances(Parallel::shared());
+    inertia = KMeans(n, k, features.columns(), options)
+                  .cluster(distances, all_rows(n), k, RandomStream(seed, Stream::kmeans), labels);
+  }
+  return py::make_tuple(label_array(labels), inertia);
+}
+
+}  // namespace
+
+void bind_clustering(py::module_& module) {
+  module.def("ward", ward, kWardDoc, py::arg("features"), py::arg("n_clusters"));
+  module.def("kmeans", kmeans, kKMeansDoc, py::arg("features"), py::arg("n_clusters"), py::arg("n_init") = 10,
+             py::arg("seed") = 0);
+}
+
+}  // namespace svnet::python

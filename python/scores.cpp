@@ -1,0 +1,98 @@
+#include "arguments.h"
+#include "base/error.h"
+#include "base/text.h"
+#include "bindings.h"
+#include "computing.h"
+#include "semantics/semantic_scores.h"
+
+namespace svnet::python {
+namespace {
+
+namespace py = pybind11;
+
+Singletons singletons_named(const std::string& name) {
+  const std::vector<std::string> names{"zero", "skip"};
+  if (name == names[0]) return Singletons::zero;
+  check(name == names[1], "[semantic_scores] there is no treatment of singletons '", name, "'",
+        suggestion(name, names));
+  return Singletons::skip;
+}
+
+ScoreOptions options_from(const py::object& problems, const py::object& min_samples, const py::object& seed,
+                          const std::string& singletons) {
+  check(!problems.is_none() || !min_samples.is_none(),
+        "[semantic_scores] nothing says when to stop; give problems or min_samples");
+  ScoreOptions options{.seed = whole_number("semantic_scores", "seed", seed),
+                       .singletons = singletons_named(singletons)};
+  if (!problems.is_none()) options.problems = whole_number("semantic_scores", "problems", problems, 1);
+  if (!min_samples.is_none()) options.min_samples = whole_number("semantic_scores", "min_samples", min_samples, 1);
+  return options;
+}
+
+constexpr const char* kDoc =
+    R"(semantic_scores(features, category, object, pose, problems=None, min_samples=None, seed=0, singletons="zero")
+--
+
+Semantic scores of views by Monte-Carlo: the mean Fowlkes-Mallows score, individual and global, over the random
+clustering problems that contain the view. A problem is a random choice of at least three categories, of objects of
+each, of a pose of each object and of a view of that pose, clustered with Ward's linkage.
+
+Parameters
+----------
+features : (N, D) array of integers or floats, one row per view
+category, object, pose : (N,) arrays of whole numbers; objects are unique within a category, poses within an object
+problems : int, stop after this many problems
+min_samples : int, stop when every view was in this many problems (asked every 16384 problems)
+    At least one of the two is needed; of both, the first that is reached counts.
+seed : int from 0 to 2^64 - 1; the same seed gives the same bits, whatever the number of threads
+singletons : "zero" or "skip"; what the individual score of an item is that is alone in its category in the problem:
+    0, or left out of the mean
+
+Returns
+-------
+dict of (N,) arrays: individual, global, standard_error (of individual) float64, count uint64 (problems that contained
+the view). A mean over nothing is NaN.
+
+Raises
+------
+svnet.Error where shapes, types or numbers do not fit, for features that are not finite, and for fewer than three
+categories.
+)";
+
+py::dict semantic_scores(const py::object& given_features, const py::object& given_category,
+                         const py::object& given_object, const py::object& given_pose, const py::object& problem_count,
+                         const py::object& min_samples, const py::object& seed, const std::string& singletons) {
+  const char* function = "semantic_scores";
+  const GivenFeatures features(function, given_features);
+  const GivenLabels category(function, "category", given_category), object(function, "object", given_object),
+      pose(function, "pose", given_pose);
+  const ScoreOptions options = options_from(problem_count, min_samples, seed, singletons);
+  SemanticScores scores;
+  {
+    const Computing computing;
+    const ClusteringProblems problems(category.values(), object.values(), pose.values());
+    check(problems.views() == features.rows(), "[semantic_scores] ", features.rows(), " rows of features, but ",
+          problems.views(), " categories, objects and poses");
+    const auto distances = features.squared_distances(Parallel::shared());
+    ScoreSums sums(problems.views());
+    continue_scores(distances, problems, options, Parallel::shared(), sums, {},
+                    [](const ScoreSums&) { let_python_interrupt(); });
+    scores = scores_from(sums);
+  }
+  py::dict result;
+  result["individual"] = array_of(std::span<const double>(scores.individual));
+  result["global"] = array_of(std::span<const double>(scores.global));
+  result["count"] = array_of(std::span<const std::uint64_t>(scores.count));
+  result["standard_error"] = array_of(std::span<const double>(scores.standard_error));
+  return result;
+}
+
+}  // namespace
+
+void bind_scores(py::module_& module) {
+  module.def("semantic_scores", semantic_scores, kDoc, py::arg("features"), py::arg("category"), py::arg("object"),
+             py::arg("pose"), py::arg("problems") = py::none(), py::arg("min_samples") = py::none(),
+             py::arg("seed") = 0, py::arg("singletons") = "zero");
+}
+
+}  // namespace svnet::python

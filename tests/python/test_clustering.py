@@ -1,0 +1,107 @@
+import numpy as np
+import pytest
+
+import svnet
+
+# Two groups of two points and one apart.
+POINTS = [[0, 0], [10, 0], [0, 1], [10, 2], [50, 50]]
+
+
+@pytest.mark.parametrize("cluster", [svnet.ward, lambda x, k: svnet.kmeans(x, k)[0]])
+@pytest.mark.parametrize("k, expected", [(1, [0, 0, 0, 0, 0]), (3, [0, 1, 0, 1, 2]), (5, [0, 1, 2, 3, 4])])
+def test_partition(cluster, k, expected):
+    labels = cluster(POINTS, k)
+    assert labels.dtype == np.int64 and labels.tolist() == expected
+
+
+def test_inertia_is_the_sum_of_squared_distances_to_the_centres():
+    labels, inertia = svnet.kmeans(POINTS, 3)
+    assert isinstance(inertia, float) and inertia == 0.5 + 2.0
+
+
+@pytest.mark.parametrize("dtype", ["?", "i1", "u1", "i2", "u4", "i8", "u8", "f2", "f4", "f8", "g", ">f4", ">i2"])
+def test_every_number_dtype_means_the_same(dtype):
+    points = np.array([[0, 0], [1, 1], [0, 0], [1, 0]]).astype(dtype)
+    assert svnet.ward(points, 2).tolist() == [0, 1, 0, 1]
+    assert svnet.kmeans(points, 2)[1] == 0.5
+
+
+def test_strides(random):
+    points = random.normal(size=(40, 6)).astype(np.float32)
+    expected = svnet.ward(points, 4).tolist()
+    assert svnet.ward(np.asfortranarray(points), 4).tolist() == expected
+    assert svnet.ward(np.repeat(np.repeat(points, 2, axis=0), 3, axis=1)[::2, ::3], 4).tolist() == expected
+    assert svnet.ward(points[:, ::-1], 4).tolist() == expected
+    backwards = svnet.ward(points[::-1], 4)[::-1]
+    assert svnet.fowlkes_mallows(backwards, expected) == 1
+
+
+def test_digits_that_float32_lacks_are_kept():
+    apart = np.array([[0.0], [1e-3], [3e-3], [3.5e-3]]) + 1e6
+    assert svnet.ward(apart, 2).tolist() == [0, 0, 1, 1]
+    assert svnet.ward([[2**53 - 4], [2**53 - 3], [2**53 - 1], [2**53]], 2).tolist() == [0, 0, 1, 1]
+
+
+def test_arguments_are_left_alone(random):
+    points = random.normal(size=(20, 3)).astype(np.float32)
+    before = points.copy()
+    points.setflags(write=False)
+    svnet.ward(points, 3)
+    svnet.kmeans(points, 3)
+    assert (points == before).all()
+
+
+def test_seed_decides_kmeans(random):
+    points = random.normal(size=(200, 4))
+    results = [svnet.kmeans(points, 12, n_init=1, seed=seed) for seed in (0, 0, 1, 2, 2**64 - 1)]
+    assert (results[0][0] == results[1][0]).all() and results[0][1] == results[1][1]
+    assert len({inertia for _, inertia in results}) == 4
+
+
+@pytest.mark.parametrize("n", [1, 2, 3, 8])
+def test_number_of_threads_does_not_matter(n, random, threads):
+    points = random.normal(size=(400, 300))
+    threads(1)
+    ward, kmeans = svnet.ward(points, 7), svnet.kmeans(points, 7)
+    threads(n)
+    assert svnet.ward(points, 7).tobytes() == ward.tobytes()
+    labels, inertia = svnet.kmeans(points, 7)
+    assert labels.tobytes() == kmeans[0].tobytes() and inertia == kmeans[1]
+
+
+@pytest.mark.parametrize(
+    "features, message",
+    [
+        ([1, 2, 3], r"features have shape \(3,\); expects \(N, D\)"),
+        (np.zeros((2, 2, 2)), r"features have shape \(2, 2, 2\)"),
+        ([["a", "b"]], "features has dtype <U1; expects integers or floats"),
+        (np.zeros((2, 2), complex), "features has dtype complex128"),
+        ([[1, 2], [3]], "features is not an array"),
+        ([[None]], "features has dtype object"),
+        (np.zeros((0, 3)), r"features have shape \(0, 3\)"),
+        (np.zeros((3, 0)), r"features have shape \(3, 0\)"),
+        ([[0.0, 1.0], [2.0, float("nan")]], "feature 1 of row 1 is -?nan"),
+        (np.array([[0.0], [np.inf]], np.float16), "feature 0 of row 1 is inf"),
+        ([[0.0], [1e30]], "beyond float32"),
+    ],
+)
+def test_features_that_are_refused(features, message):
+    for cluster in (svnet.ward, svnet.kmeans):
+        with pytest.raises(svnet.Error, match=message):
+            cluster(features, 1)
+
+
+@pytest.mark.parametrize("k", [0, -1, 2.0, "2", None, 6, 2**64])
+def test_numbers_of_clusters_that_are_refused(k):
+    message = "cannot make 6 clusters of 5 points" if k == 6 else "n_clusters is .*; expects a whole number from 1 to"
+    for cluster in (svnet.ward, svnet.kmeans):
+        with pytest.raises(svnet.Error, match=message):
+            cluster(POINTS, k)
+
+
+def test_other_numbers_that_are_refused():
+    with pytest.raises(svnet.Error, match="n_init is 0; expects a whole number from 1"):
+        svnet.kmeans(POINTS, 2, n_init=0)
+    with pytest.raises(svnet.Error, match="seed is -1; expects a whole number from 0"):
+        svnet.kmeans(POINTS, 2, seed=-1)
+    assert svnet.kmeans(POINTS, np.int8(2), n_init=np.uint16(3), seed=np.int64(5))[0].tolist() == [0, 0, 0, 0, 1]

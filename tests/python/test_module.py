@@ -1,0 +1,71 @@
+import inspect
+import os
+import re
+import threading
+
+import pytest
+
+import svnet
+
+
+def test_everything_public_has_a_docstring_and_a_signature():
+    for name in svnet.__all__:
+        if name == "__version__":
+            continue
+        public = getattr(svnet, name)
+        assert public.__doc__, name
+        if name != "Error":
+            assert "(" in str(inspect.signature(public)), name
+
+
+def test_signatures_are_those_of_the_documentation():
+    assert str(inspect.signature(svnet.kmeans)) == "(features, n_clusters, n_init=10, seed=0)"
+    assert (
+        str(inspect.signature(svnet.semantic_scores)) == "(features, category, object, pose, "
+        "problems=None, min_samples=None, seed=0, singletons='zero')"
+    )
+    assert str(inspect.signature(svnet.Backbone)) == "(name, weights=None, layer=None, seed=0)"
+
+
+def test_version():
+    assert re.fullmatch(r"\d+\.\d+\.\d+", svnet.__version__)
+
+
+def test_error_is_a_value_error():
+    assert issubclass(svnet.Error, ValueError)
+    assert f"{svnet.Error.__module__}.{svnet.Error.__name__}" == "svnet.Error"
+
+
+@pytest.mark.parametrize("n", [0, -1, 1025, 2.0, "two", None])
+def test_set_threads_refuses(n):
+    with pytest.raises(svnet.Error, match=r"\[set_threads\] n is "):
+        svnet.set_threads(n)
+
+
+def test_calls_from_several_threads_while_the_number_of_threads_changes(random, threads):
+    features = random.normal(size=(300, 8))
+    expected = svnet.ward(features, 5)
+    same = []
+
+    def work():
+        same.extend((svnet.ward(features, 5) == expected).all() for _ in range(10))
+
+    workers = [threading.Thread(target=work) for _ in range(3)]
+    for worker in workers:
+        worker.start()
+    for n in (1, 3, 2, 4) * 5:
+        threads(n)
+    for worker in workers:
+        worker.join()
+    assert len(same) == 30 and all(same)
+
+
+def test_forked_processes_compute(random, threads):
+    threads(2)
+    features = random.normal(size=(300, 8))
+    expected = svnet.ward(features, 5)
+    child = os.fork()
+    if child == 0:
+        threads(3)
+        os._exit(0 if (svnet.ward(features, 5) == expected).all() else 1)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
