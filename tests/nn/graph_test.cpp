@@ -125,3 +125,14 @@ TEST_CASE("ancestors are what an output depends on") {
   CHECK(graph.inputs() == std::vector<NodeId>{image});
   CHECK(graph.output() == c);
 }
+
+TEST_CASE("a layer with attributes that make no sense is refused by its name") {
+  Graph g;
+  const NodeId image = g.input("image", {8, 8, 3});
+  CHECK_THROWS_WITH(g.add("conv", Conv2dLayer{.filters = 0}, {image}),
+                    "[graph] layer 'conv': [Conv2D] gives 8x8x0, which is empty or too large");
+  CHECK_THROWS_WITH(g.add("drop", DropoutLayer{1.0}, {image}),
+                    "[graph] layer 'drop': [Dropout] rate 1 is outside [0, 1)");
+  CHECK_THROWS_WITH(g.add("pad", ZeroPadding2dLayer{Padding::of(0, -1, 0, 0)}, {image}),
+                    "[graph] layer 'pad': [ZeroPadding2D] needs four numbers of zeros, none negative");
+}

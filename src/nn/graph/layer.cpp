@@ -88,7 +88,9 @@ std::vector<ParameterSpec> parameters(const Layer& layer, const std::vector<Shap
   return specs;
 }
 
-Shape output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
+namespace {
+
+Shape unchecked_output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
   const auto one = [&]() -> const Shape& {
     check(inputs.size() == 1, "[", kind(layer), "] takes one input, got ", inputs.size());
     return inputs[0];
@@ -112,6 +114,9 @@ Shape output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
           },
           [&](const ZeroPadding2dLayer& l) -> Shape {
             check(one().size() == 3, "[ZeroPadding2D] expects images HxWxC, got ", to_string(one()));
+            check(l.padding.kind == Padding::Kind::explicit_ &&
+                      std::min({l.padding.top, l.padding.bottom, l.padding.left, l.padding.right}) >= 0,
+                  "[ZeroPadding2D] needs four numbers of zeros, none negative");
             return {one()[0] + l.padding.top + l.padding.bottom, one()[1] + l.padding.left + l.padding.right, one()[2]};
           },
           [&](const AddLayer&) -> Shape {
@@ -139,8 +144,22 @@ Shape output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
                   to_string(l.shape));
             return l.shape;
           },
+          [&](const DropoutLayer& l) -> Shape {
+            check(l.rate >= 0 && l.rate < 1, "[Dropout] rate ", l.rate, " is outside [0, 1)");
+            return one();
+          },
           [&](const auto&) -> Shape { return one(); }},
       layer);
+}
+
+}  // namespace
+
+Shape output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
+  Shape shape = unchecked_output_shape(layer, inputs);
+  constexpr Index kLargest = Index{1} << 31;
+  for (Index size : shape)
+    check(size > 0 && size < kLargest, "[", kind(layer), "] gives ", to_string(shape), ", which is empty or too large");
+  return shape;
 }
 
 }  // namespace svnet
