@@ -1,0 +1,129 @@
+// The C++17 interface of svnet: svnet.h with exceptions and ownership. Header-only, so that the compiler and standard
+// library of the caller need not be those that the library was built with.
+//
+//   svnet::ViewModel model("model.safetensors");
+//   const std::vector<float> features = model.embed({pixels, height, width});
+//   const svnet::CameraPose poses[] = {{0, 45}, {90, 60}};
+//   const svnet::BestView best = model.best_view(features, poses, 2);
+//
+// Units, ranges and thread safety are those of svnet.h.
+#ifndef SVNET_SVNET_HPP
+#define SVNET_SVNET_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "svnet/svnet.h"
+
+namespace svnet {
+inline namespace v0 {
+
+// What a function of svnet.h reported: its status and one line of text.
+class StatusError : public std::runtime_error {
+ public:
+  StatusError(svnet_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
+  svnet_status status() const { return status_; }
+
+ private:
+  svnet_status status_;
+};
+
+// In degrees.
+struct CameraPose {
+  double theta_deg, phi_deg;
+};
+static_assert(sizeof(CameraPose) == 2 * sizeof(double), "poses are passed as pairs of doubles");
+
+// A view of pixels that the caller owns. stride_bytes 0: rows follow each other without gaps.
+struct ImageView {
+  const std::uint8_t* pixels;
+  std::int32_t height, width;
+  svnet_pixel_format format = SVNET_RGB8;
+  std::size_t stride_bytes = 0;
+};
+
+struct BestView {
+  std::size_t index;  // of the pose with the highest score, the first among equals
+  float score;
+};
+
+namespace detail {
+
+inline void check(svnet_status status) {
+  if (status == SVNET_OUT_OF_MEMORY) throw std::bad_alloc();
+  if (status != SVNET_OK) throw StatusError(status, svnet_last_error());
+}
+
+inline std::size_t pixel_bytes(svnet_pixel_format format) {
+  return format == SVNET_GRAY8 ? 1 : format == SVNET_RGBA8 || format == SVNET_BGRA8 ? 4 : 3;
+}
+
+}  // namespace detail
+
+inline std::string version() { return svnet_version(); }
+
+inline void set_threads(int threads) { detail::check(svnet_set_threads(threads)); }
+
+// A trained model; movable, not copyable. All functions throw StatusError, or std::bad_alloc, where svnet.h fails.
+class ViewModel {
+ public:
+  explicit ViewModel(const std::string& path) {
+    svnet_model* model = nullptr;
+    detail::check(svnet_model_load(path.c_str(), &model));
+    model_.reset(model);
+  }
+
+  std::size_t feature_count() const { return svnet_feature_count(model_.get()); }
+
+  // feature_count() features of a top image.
+  std::vector<float> embed(const ImageView& image) const {
+    std::vector<float> features(feature_count());
+    const std::size_t tight = static_cast<std::size_t>(image.width) * detail::pixel_bytes(image.format);
+    detail::check(svnet_embed(model_.get(), image.pixels, image.height, image.width,
+                              image.stride_bytes == 0 ? tight : image.stride_bytes, image.format, features.data()));
+    return features;
+  }
+
+  std::vector<float> scores(const std::vector<float>& features, const CameraPose* poses, std::size_t count) const {
+    std::vector<float> result(count);
+    detail::check(svnet_score(model_.get(), numbers(features), angles(poses), count, result.data()));
+    return result;
+  }
+  std::vector<float> scores(const std::vector<float>& features, const std::vector<CameraPose>& poses) const {
+    return scores(features, poses.data(), poses.size());
+  }
+
+  BestView best_view(const std::vector<float>& features, const CameraPose* poses, std::size_t count) const {
+    BestView best{};
+    detail::check(svnet_best_view(model_.get(), numbers(features), angles(poses), count, &best.index, &best.score));
+    return best;
+  }
+  BestView best_view(const std::vector<float>& features, const std::vector<CameraPose>& poses) const {
+    return best_view(features, poses.data(), poses.size());
+  }
+
+ private:
+  struct Free {
+    void operator()(svnet_model* model) const { svnet_model_free(model); }
+  };
+
+  const float* numbers(const std::vector<float>& features) const {
+    if (features.size() != feature_count())
+      throw StatusError(SVNET_INVALID_ARGUMENT, "there are " + std::to_string(features.size()) +
+                                                    " features, the model expects " + std::to_string(feature_count()));
+    return features.data();
+  }
+  static const double* angles(const CameraPose* poses) { return poses == nullptr ? nullptr : &poses->theta_deg; }
+
+  std::unique_ptr<svnet_model, Free> model_;
+};
+
+}  // namespace v0
+}  // namespace svnet
+
+#endif  // SVNET_SVNET_HPP

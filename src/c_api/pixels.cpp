@@ -1,0 +1,56 @@
+#include "pixels.h"
+
+#include <array>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+/// As many pixels as io/image_file.h reads.
+constexpr Index kMostPixels = Index{64} << 20;
+
+struct Layout {
+  std::size_t bytes;                  // of a pixel
+  std::array<std::size_t, 3> offset;  // of red, green, blue
+};
+
+Layout layout_of(svnet_pixel_format format) {
+  switch (static_cast<int>(format)) {
+    case SVNET_RGB8:
+      return {3, {0, 1, 2}};
+    case SVNET_BGR8:
+      return {3, {2, 1, 0}};
+    case SVNET_RGBA8:
+      return {4, {0, 1, 2}};
+    case SVNET_BGRA8:
+      return {4, {2, 1, 0}};
+    case SVNET_GRAY8:
+      return {1, {0, 0, 0}};
+    default:
+      fail("[svnet_embed] there is no pixel format ", static_cast<int>(format));
+  }
+}
+
+}  // namespace
+
+Image image_of(const std::uint8_t* pixels, std::int32_t height, std::int32_t width, std::size_t stride_bytes,
+               svnet_pixel_format format) {
+  const Layout layout = layout_of(format);
+  check(height > 0 && width > 0, "[svnet_embed] the image is ", height, "x", width, ", expected at least one pixel");
+  check(Index{height} * width <= kMostPixels, "[svnet_embed] the image is ", height, "x", width,
+        ", larger than 64 megapixels");
+  const std::size_t row_bytes = static_cast<std::size_t>(width) * layout.bytes;
+  check(stride_bytes >= row_bytes, "[svnet_embed] stride_bytes is ", stride_bytes, ", less than the ", row_bytes,
+        " bytes of a row");
+  Image image{height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(Index{height} * width * 3))};
+  std::uint8_t* out = image.rgb.data();
+  for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
+    const std::uint8_t* in = pixels + y * stride_bytes;
+    for (std::int32_t x = 0; x < width; ++x, in += layout.bytes)
+      for (const std::size_t offset : layout.offset) *out++ = in[offset];
+  }
+  return image;
+}
+
+}  // namespace svnet

@@ -1,0 +1,129 @@
+// The C interface over Predictor: checks pointers and sizes, turns exceptions into a status and a text.
+#include "svnet/svnet.h"
+
+#include <algorithm>
+#include <mutex>
+#include <new>
+#include <vector>
+
+#include "base/cpu.h"
+#include "base/parallel.h"
+#include "base/version.h"
+#include "pixels.h"
+#include "predict/predictor.h"
+
+struct svnet_model {
+  svnet::Predictor predictor;
+};
+
+namespace {
+
+using namespace svnet;
+
+/// A fixed buffer: keeping a message must not fail for want of memory.
+thread_local char last_error[1024] = "";
+
+svnet_status failed(svnet_status status, const char* text) {
+  std::size_t length = 0;
+  for (; length + 1 < sizeof last_error && text[length] != '\0'; ++length)
+    last_error[length] = static_cast<unsigned char>(text[length]) < 0x20 ? ' ' : text[length];
+  last_error[length] = '\0';
+  return status;
+}
+
+/// SVNET_OK where `body` returns, the status of what it throws where not: `user_error` for Error.
+template <class Body>
+svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
+  try {
+    body();
+    return SVNET_OK;
+  } catch (const Error& error) {
+    return failed(user_error, error.what());
+  } catch (const std::bad_alloc&) {
+    return failed(SVNET_OUT_OF_MEMORY, "out of memory");
+  } catch (const std::exception& error) {
+    return failed(SVNET_INTERNAL_ERROR, error.what());
+  } catch (...) {
+    return failed(SVNET_INTERNAL_ERROR, "unknown exception");
+  }
+}
+
+void check_given(const void* pointer, const char* function, const char* name) {
+  check(pointer != nullptr, "[", function, "] ", name, " is NULL");
+}
+
+std::vector<float> scores_of(const char* function, const svnet_model* model, const float* features,
+                             const double* poses_deg, std::size_t count) {
+  check_given(model, function, "model");
+  check_given(features, function, "features");
+  if (count == 0) return {};
+  check_given(poses_deg, function, "poses_deg");
+  std::vector<Pose> poses;
+  if (count > poses.max_size()) throw std::bad_alloc();
+  poses.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) poses.push_back({poses_deg[2 * i], poses_deg[2 * i + 1]});
+  const Predictor& predictor = model->predictor;
+  const Index dimension = predictor.feature_count();
+  Tensor row = Tensor::empty({1, dimension});
+  std::copy_n(features, dimension, row.data<float>());
+  return predictor.scores(row, poses);
+}
+
+}  // namespace
+
+const char* svnet_version(void) { return kVersion; }
+
+const char* svnet_last_error(void) { return last_error; }
+
+svnet_status svnet_set_threads(int threads) {
+  return guarded(SVNET_INVALID_ARGUMENT, [&] { Parallel::shared().resize(threads); });
+}
+
+svnet_status svnet_model_load(const char* path, svnet_model** model) {
+  const svnet_status arguments = guarded(SVNET_INVALID_ARGUMENT, [&] {
+    check_given(model, "svnet_model_load", "model");
+    *model = nullptr;
+    check_given(path, "svnet_model_load", "path");
+    static std::once_flag once;
+    std::call_once(once, cap_from_environment);
+  });
+  if (arguments != SVNET_OK) return arguments;
+  return guarded(SVNET_INVALID_MODEL, [&] { *model = new svnet_model{Predictor(std::filesystem::path(path))}; });
+}
+
+void svnet_model_free(svnet_model* model) { delete model; }
+
+size_t svnet_feature_count(const svnet_model* model) {
+  return model == nullptr ? 0 : static_cast<size_t>(model->predictor.feature_count());
+}
+
+svnet_status svnet_embed(const svnet_model* model, const uint8_t* pixels, int32_t height, int32_t width,
+                         size_t stride_bytes, svnet_pixel_format format, float* features) {
+  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+    check_given(model, "svnet_embed", "model");
+    check_given(pixels, "svnet_embed", "pixels");
+    check_given(features, "svnet_embed", "features");
+    const Tensor values = model->predictor.embed(image_of(pixels, height, width, stride_bytes, format));
+    std::copy_n(values.data<float>(), values.size(), features);
+  });
+}
+
+svnet_status svnet_score(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
+                         float* scores) {
+  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+    if (count > 0) check_given(scores, "svnet_score", "scores");
+    const std::vector<float> values = scores_of("svnet_score", model, features, poses_deg, count);
+    std::copy(values.begin(), values.end(), scores);
+  });
+}
+
+svnet_status svnet_best_view(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
+                             size_t* best, float* score) {
+  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+    check_given(best, "svnet_best_view", "best");
+    check(count > 0, "[svnet_best_view] count is 0, there is no pose to choose from");
+    const std::vector<float> values = scores_of("svnet_best_view", model, features, poses_deg, count);
+    *best = best_view(values);
+    if (score != nullptr) *score = values[*best];
+  });
+}

@@ -1,0 +1,190 @@
+// The shared library against the classes that it is made of, which are linked into this program a second time.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <thread>
+
+#include "base/version.h"
+#include "predict/pose_grid.h"
+#include "predict/predictor.h"
+#include "small_model.h"
+#include "svnet/svnet.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+namespace {
+
+struct Loaded {
+  Loaded() {
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "model.safetensors";
+    write_model(path, small_model());
+    REQUIRE(svnet_model_load(path.c_str(), &model) == SVNET_OK);
+  }
+  ~Loaded() { svnet_model_free(model); }
+  Loaded(const Loaded&) = delete;
+  Loaded& operator=(const Loaded&) = delete;
+
+  std::vector<float> embed(const std::vector<std::uint8_t>& pixels, std::int32_t height, std::int32_t width,
+                           std::size_t stride, svnet_pixel_format format) const {
+    std::vector<float> features(svnet_feature_count(model));
+    REQUIRE(svnet_embed(model, pixels.data(), height, width, stride, format, features.data()) == SVNET_OK);
+    return features;
+  }
+
+  svnet_model* model = nullptr;
+};
+
+std::vector<double> pairs_of(const std::vector<Pose>& poses) {
+  std::vector<double> pairs;
+  for (const Pose& pose : poses) pairs.insert(pairs.end(), {pose.theta_deg, pose.phi_deg});
+  return pairs;
+}
+
+/// `image` with its channels in `order` (numbers of RGB; 3 is alpha) and `gap` bytes after each row but the last.
+std::vector<std::uint8_t> laid_out(const Image& image, const std::vector<int>& order, std::size_t gap) {
+  std::vector<std::uint8_t> bytes;
+  for (Index y = 0; y < image.height; ++y) {
+    for (Index x = 0; x < image.width; ++x)
+      for (const int channel : order)
+        bytes.push_back(channel == 3 ? static_cast<std::uint8_t>(x * 11)
+                                     : image.rgb[static_cast<std::size_t>(3 * (y * image.width + x) + channel)]);
+    if (y + 1 < image.height) bytes.insert(bytes.end(), gap, 0xEE);
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("the library gives the predictor's features, scores and best view") {
+  const Loaded loaded;
+  const Predictor predictor(small_model());
+  const Image image = small_picture();
+  const std::vector<Pose> poses = paper_grid();
+  const Tensor expected = predictor.embed(image);
+  const std::vector<float> expected_scores = predictor.scores(expected, poses);
+
+  REQUIRE(svnet_feature_count(loaded.model) == static_cast<std::size_t>(predictor.feature_count()));
+  const std::vector<float> features = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
+  CHECK(std::equal(features.begin(), features.end(), expected.data<float>()));
+  std::vector<float> scores(poses.size());
+  const std::vector<double> pairs = pairs_of(poses);
+  REQUIRE(svnet_score(loaded.model, features.data(), pairs.data(), poses.size(), scores.data()) == SVNET_OK);
+  CHECK(scores == expected_scores);
+  std::size_t best = 99;
+  float score = 0;
+  REQUIRE(svnet_best_view(loaded.model, features.data(), pairs.data(), poses.size(), &best, &score) == SVNET_OK);
+  CHECK(best == best_view(expected_scores));
+  CHECK(score == expected_scores[best]);
+  CHECK(svnet_best_view(loaded.model, features.data(), pairs.data(), 1, &best, nullptr) == SVNET_OK);
+  CHECK(best == 0);
+  CHECK(svnet_score(loaded.model, features.data(), nullptr, 0, nullptr) == SVNET_OK);
+  CHECK(std::string(svnet_version()) == kVersion);
+}
+
+TEST_CASE("every pixel format and stride means the same picture") {
+  const Loaded loaded;
+  const Image image = small_picture();
+  const std::vector<float> expected = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
+  struct Case {
+    svnet_pixel_format format;
+    std::vector<int> order;
+  };
+  for (const Case& c : {Case{SVNET_RGB8, {0, 1, 2}}, Case{SVNET_BGR8, {2, 1, 0}}, Case{SVNET_RGBA8, {0, 1, 2, 3}},
+                        Case{SVNET_BGRA8, {2, 1, 0, 3}}})
+    for (const std::size_t gap : {0, 5}) {
+      INFO("format " << c.format << ", gap " << gap);
+      CHECK(loaded.embed(laid_out(image, c.order, gap), 70, 50, 50 * c.order.size() + gap, c.format) == expected);
+    }
+  Image grey = image;
+  for (std::size_t i = 0; i < grey.rgb.size(); ++i) grey.rgb[i] = image.rgb[i / 3 * 3 + 1];
+  const std::vector<float> expected_grey = loaded.embed(grey.rgb, 70, 50, 150, SVNET_RGB8);
+  CHECK(expected_grey != expected);
+  CHECK(loaded.embed(laid_out(image, {1}, 3), 70, 50, 53, SVNET_GRAY8) == expected_grey);
+}
+
+TEST_CASE("wrong arguments are reported and leave the outputs alone") {
+  const Loaded loaded;
+  svnet_model* const m = loaded.model;
+  const std::vector<std::uint8_t> pixels(4 * 4 * 4);
+  std::vector<float> features(svnet_feature_count(m), 0.25f);
+  const std::vector<float> untouched = features;
+  const auto refused = [](svnet_status status, const std::string& text) {
+    CHECK(status == SVNET_INVALID_ARGUMENT);
+    CHECK(std::string(svnet_last_error()) == text);
+  };
+  const auto embed = [&](int height, int width, std::size_t stride, int format) {
+    return svnet_embed(m, pixels.data(), height, width, stride, static_cast<svnet_pixel_format>(format),
+                       features.data());
+  };
+  refused(embed(0, 4, 12, SVNET_RGB8), "[svnet_embed] the image is 0x4, expected at least one pixel");
+  refused(embed(4, -1, 12, SVNET_RGB8), "[svnet_embed] the image is 4x-1, expected at least one pixel");
+  refused(embed(4, 4, 11, SVNET_RGB8), "[svnet_embed] stride_bytes is 11, less than the 12 bytes of a row");
+  refused(embed(4, 4, 15, SVNET_BGRA8), "[svnet_embed] stride_bytes is 15, less than the 16 bytes of a row");
+  refused(embed(4, 4, 16, 7), "[svnet_embed] there is no pixel format 7");
+  refused(embed(65536, 65536, 262144, SVNET_RGB8), "[svnet_embed] the image is 65536x65536, larger than 64 megapixels");
+  refused(svnet_embed(m, nullptr, 4, 4, 12, SVNET_RGB8, features.data()), "[svnet_embed] pixels is NULL");
+  refused(svnet_embed(nullptr, pixels.data(), 4, 4, 12, SVNET_RGB8, features.data()), "[svnet_embed] model is NULL");
+  refused(svnet_embed(m, pixels.data(), 4, 4, 12, SVNET_RGB8, nullptr), "[svnet_embed] features is NULL");
+  CHECK(features == untouched);
+
+  const double poses[] = {0, 45, 0, 95};
+  float scores[] = {-1, -1};
+  std::size_t best = 7;
+  refused(svnet_score(m, features.data(), poses, 2, scores), "[predict] pose 1: phi 95 is outside [0, 90] degrees");
+  refused(svnet_score(m, features.data(), nullptr, 2, scores), "[svnet_score] poses_deg is NULL");
+  refused(svnet_score(m, nullptr, poses, 1, scores), "[svnet_score] features is NULL");
+  refused(svnet_score(m, features.data(), poses, 1, nullptr), "[svnet_score] scores is NULL");
+  refused(svnet_best_view(m, features.data(), poses, 0, &best, nullptr),
+          "[svnet_best_view] count is 0, there is no pose to choose from");
+  refused(svnet_best_view(m, features.data(), poses, 1, nullptr, nullptr), "[svnet_best_view] best is NULL");
+  features[1] = std::nanf("");
+  refused(svnet_score(m, features.data(), poses, 1, scores), "[predict] feature 1 is nan, not a finite number");
+  CHECK(scores[0] == -1);
+  CHECK(best == 7);
+  CHECK(svnet_score(m, untouched.data(), poses, static_cast<std::size_t>(-1), scores) == SVNET_OUT_OF_MEMORY);
+  CHECK(svnet_set_threads(0) == SVNET_INVALID_ARGUMENT);
+  CHECK(svnet_feature_count(nullptr) == 0);
+  svnet_model_free(nullptr);
+}
+
+TEST_CASE("a model that cannot be loaded is NULL and says why") {
+  const TemporaryFolder folder;
+  svnet_model* model = reinterpret_cast<svnet_model*>(&model);
+  const std::string none = folder.path() / "none";
+  CHECK(svnet_model_load(none.c_str(), &model) == SVNET_INVALID_MODEL);
+  CHECK(model == nullptr);
+  CHECK_THAT(svnet_last_error(), Catch::StartsWith(none + ": cannot be read"));
+  const std::string text = folder.write("text", "not a model\n");
+  CHECK(svnet_model_load(text.c_str(), &model) == SVNET_INVALID_MODEL);
+  CHECK_THAT(svnet_last_error(), Catch::StartsWith(text + ": "));
+  CHECK(svnet_model_load(nullptr, &model) == SVNET_INVALID_ARGUMENT);
+  CHECK(svnet_model_load(text.c_str(), nullptr) == SVNET_INVALID_ARGUMENT);
+  const std::string endless(5000, 'x');
+  CHECK(svnet_model_load(endless.c_str(), &model) == SVNET_INVALID_MODEL);
+  CHECK(std::strlen(svnet_last_error()) == 1023);
+}
+
+TEST_CASE("each thread has its own last error, and the number of threads changes no bit") {
+  const Loaded loaded;
+  const std::vector<std::uint8_t> pixels = small_picture().rgb;
+  svnet_model* none = nullptr;
+  CHECK(svnet_model_load("/nonexistent/a", &none) == SVNET_INVALID_MODEL);
+  const std::string mine = svnet_last_error();
+  std::string other_before = "?", other_after;
+  std::thread([&] {
+    other_before = svnet_last_error();
+    svnet_model* model = nullptr;
+    svnet_model_load("/nonexistent/b", &model);
+    other_after = svnet_last_error();
+  }).join();
+  CHECK(other_before.empty());
+  CHECK_THAT(other_after, Catch::StartsWith("/nonexistent/b"));
+  CHECK(svnet_last_error() == mine);
+
+  REQUIRE(svnet_set_threads(1) == SVNET_OK);
+  const std::vector<float> one = loaded.embed(pixels, 70, 50, 150, SVNET_RGB8);
+  REQUIRE(svnet_set_threads(3) == SVNET_OK);
+  CHECK(loaded.embed(pixels, 70, 50, 150, SVNET_RGB8) == one);
+}

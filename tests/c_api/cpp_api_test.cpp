@@ -1,0 +1,68 @@
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <type_traits>
+
+#include "model_writer.h"
+#include "svnet/svnet.hpp"
+#include "temporary_folder.h"
+
+namespace {
+
+svnet::ViewModel small_view_model() {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "model.safetensors";
+  write_small_model(path);
+  return svnet::ViewModel(path);
+}
+
+}  // namespace
+
+TEST_CASE("the C++ interface gives what the C interface gives") {
+  static_assert(std::is_nothrow_move_constructible_v<svnet::ViewModel>);
+  static_assert(!std::is_copy_constructible_v<svnet::ViewModel>);
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "model.safetensors";
+  write_small_model(path);
+  const svnet::ViewModel model(path);
+  svnet_model* c_model = nullptr;
+  REQUIRE(svnet_model_load(path.c_str(), &c_model) == SVNET_OK);
+
+  std::vector<std::uint8_t> grey(9 * 8);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(i * 37);
+  std::vector<float> c_features(svnet_feature_count(c_model));
+  REQUIRE(svnet_embed(c_model, grey.data(), 9, 8, 8, SVNET_GRAY8, c_features.data()) == SVNET_OK);
+  const std::vector<float> features = model.embed({grey.data(), 9, 8, SVNET_GRAY8});
+  CHECK(features == c_features);
+  CHECK(model.embed({grey.data(), 9, 7, SVNET_GRAY8, 8}) != features);
+
+  const std::vector<svnet::CameraPose> poses{{0, 45}, {135, 60}, {315, 75}};
+  const std::array<double, 6> pairs{0, 45, 135, 60, 315, 75};
+  std::vector<float> c_scores(3);
+  REQUIRE(svnet_score(c_model, c_features.data(), pairs.data(), 3, c_scores.data()) == SVNET_OK);
+  CHECK(model.scores(features, poses) == c_scores);
+  const svnet::BestView best = model.best_view(features, poses);
+  REQUIRE(best.index < 3);
+  CHECK(best.score == c_scores[best.index]);
+  CHECK(best.score == *std::max_element(c_scores.begin(), c_scores.end()));
+  CHECK(model.best_view(features, {{315, 75}, {0, 45}, {135, 60}}).score == Approx(best.score));
+  CHECK(model.scores(features, {}).empty());
+  svnet_model_free(c_model);
+}
+
+TEST_CASE("the C++ interface throws what the C interface reports") {
+  const svnet::ViewModel model = small_view_model();
+  const std::vector<float> features(model.feature_count(), 0.5f);
+  try {
+    model.scores(features, {{0, 95}});
+    FAIL("accepted");
+  } catch (const svnet::StatusError& error) {
+    CHECK(error.status() == SVNET_INVALID_ARGUMENT);
+    CHECK(std::string(error.what()) == "[predict] pose 0: phi 95 is outside [0, 90] degrees");
+  }
+  CHECK_THROWS_WITH(model.scores({1, 2, 3}, {{0, 45}}),
+                    "there are 3 features, the model expects " + std::to_string(model.feature_count()));
+  CHECK_THROWS_WITH(model.best_view(features, {}), "[svnet_best_view] count is 0, there is no pose to choose from");
+  CHECK_THROWS_WITH(svnet::ViewModel("/nonexistent/model"), Catch::StartsWith("/nonexistent/model: cannot be read"));
+  CHECK_THROWS_WITH(svnet::set_threads(0), Catch::Contains("threads"));
+}

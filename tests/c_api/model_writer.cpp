@@ -1,0 +1,5 @@
+#include "model_writer.h"
+
+#include "small_model.h"
+
+void write_small_model(const std::string& path) { svnet::write_model(path, small_model()); }

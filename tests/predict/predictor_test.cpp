@@ -1,0 +1,129 @@
+#include "predict/predictor.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <thread>
+
+#include "nn/graph/run.h"
+#include "predict/pose_grid.h"
+#include "small_model.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+namespace {
+
+/// Features and scores layer by layer, as the model's file has them, one pose after the other.
+Tensor plain_features(const Model& model, const Image& image) {
+  Tensor batch = Tensor::empty({1, model.preprocessing.height, model.preprocessing.width, 3});
+  prepare(model.preprocessing, image, batch.data<float>());
+  return infer(model.backbone_graph, model.backbone_parameters, {batch},
+               {model.backbone_graph.find(model.backbone_output)})[0];
+}
+
+double plain_score(const Model& model, const Tensor& features, const Pose& pose) {
+  Tensor angles = Tensor::empty({1, angle_count(model.angles)});
+  encode_angles(model.angles, pose.theta_deg, pose.phi_deg, angles.data<float>());
+  return infer(model.head, model.head_parameters, {features, angles}, {model.head.output()})[0].data<float>()[0];
+}
+
+std::vector<Pose> many_poses() {
+  std::vector<Pose> poses;
+  for (int i = 0; i < 75; ++i) poses.push_back({i * 4.7, (i * 13) % 91 * 1.0});
+  return poses;
+}
+
+}  // namespace
+
+TEST_CASE("a predictor gives the features and scores of its model, as many poses as there are") {
+  for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere}) {
+    const Model model = small_model(encoding);
+    const TemporaryFolder folder;
+    const auto path = folder.path() / "model.safetensors";
+    write_model(path, model);
+    const Predictor predictor(path);
+    const Tensor features = predictor.embed(small_picture()), expected = plain_features(model, small_picture());
+    REQUIRE(features.shape() == Shape{1, predictor.feature_count()});
+    REQUIRE(features.size() == expected.size());
+    for (Index i = 0; i < features.size(); ++i)
+      CHECK(features.data<float>()[i] == Approx(expected.data<float>()[i]).margin(1e-5));
+    const std::vector<Pose> poses = many_poses();
+    const std::vector<float> scores = predictor.scores(features, poses);
+    REQUIRE(scores.size() == poses.size());
+    for (std::size_t i = 0; i < poses.size(); ++i)
+      CHECK(scores[i] == Approx(plain_score(model, expected, poses[i])).margin(1e-5));
+    CHECK(scores[best_view(scores)] - scores[best_first(scores).back()] > 1e-3);  // poses make a difference
+    CHECK(predictor.scores(features, {}).empty());
+  }
+}
+
+TEST_CASE("poses a whole turn apart have the same score") {
+  const Predictor predictor(small_model());
+  const Tensor features = predictor.embed(small_picture());
+  const std::vector<Pose> poses{{315, 45}, {-45, 45}, {675, 45},  {0, 60},
+                                {360, 60}, {720, 60}, {-360, 60}, {-1e-20, 60}};
+  const std::vector<float> scores = predictor.scores(features, poses);
+  for (const std::size_t i : {1, 2}) CHECK(scores[i] == scores[0]);
+  for (const std::size_t i : {4, 5, 6, 7}) CHECK(scores[i] == scores[3]);
+  CHECK(scores[0] != scores[3]);
+}
+
+TEST_CASE("the best view is the first among equals") {
+  const std::vector<float> scores{0.25f, 0.75f, 0.5f, 0.75f, 0.25f};
+  CHECK(best_view(scores) == 1);
+  CHECK(best_first(scores) == std::vector<std::size_t>{1, 3, 2, 0, 4});
+  CHECK_THROWS_WITH(best_view({}), "[predict] there is no pose to choose from");
+}
+
+TEST_CASE("poses out of range are refused") {
+  const Predictor predictor(small_model());
+  const Tensor features = predictor.embed(small_picture());
+  const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
+  const auto message = [&](const Pose& pose) {
+    try {
+      predictor.scores(features, std::vector<Pose>{{0, 45}, pose});
+    } catch (const Error& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  CHECK(message({0, 91}) == "[predict] pose 1: phi 91 is outside [0, 90] degrees");
+  CHECK(message({0, -0.5}) == "[predict] pose 1: phi -0.5 is outside [0, 90] degrees");
+  CHECK(message({-361, 45}) == "[predict] pose 1: theta -361 is outside [-360, 720] degrees");
+  CHECK(message({721, 45}) == "[predict] pose 1: theta 721 is outside [-360, 720] degrees");
+  CHECK(message({nan, 45}) == "[predict] pose 1: theta nan is not finite");
+  CHECK(message({0, infinity}) == "[predict] pose 1: phi inf is not finite");
+  CHECK(message({-360, 0}) == "accepted");
+  CHECK(message({720, 90}) == "accepted");
+}
+
+TEST_CASE("features and images that do not fit are refused") {
+  const Predictor predictor(small_model());
+  const std::vector<Pose> poses{{0, 45}};
+  const std::string dimension = std::to_string(predictor.feature_count());
+  CHECK_THROWS_WITH(predictor.scores(Tensor::zeros({1, 3}), poses),
+                    "[predict] features are 1x3, the model expects 1x" + dimension + " f32");
+  CHECK_THROWS_WITH(predictor.scores(Tensor(), poses),
+                    "[predict] features are none, the model expects 1x" + dimension + " f32");
+  Tensor features = Tensor::zeros({1, predictor.feature_count()});
+  features.data<float>()[2] = std::nanf("");
+  CHECK_THROWS_WITH(predictor.scores(features, poses), "[predict] feature 2 is nan, not a finite number");
+  CHECK_THROWS_WITH(predictor.embed({}), "[predict] the image says 0x0 pixels and holds 0 bytes");
+  // Already at the size of the network's input, where nothing is resized.
+  CHECK_THROWS_WITH(predictor.embed({96, 96, std::vector<std::uint8_t>(5)}),
+                    "[predict] the image says 96x96 pixels and holds 5 bytes");
+  CHECK_THROWS_WITH(Predictor(std::filesystem::path("/nonexistent/model")),
+                    Catch::StartsWith("/nonexistent/model: cannot be read"));
+}
+
+TEST_CASE("several threads may use one predictor") {
+  const Predictor predictor(small_model());
+  const auto answer = [&] { return predictor.scores(predictor.embed(small_picture()), paper_grid()); };
+  const std::vector<float> expected = answer();
+  std::vector<std::vector<float>> answers(4);
+  std::vector<std::thread> threads;
+  for (auto& mine : answers) threads.emplace_back([&] { mine = answer(); });
+  for (auto& thread : threads) thread.join();
+  for (const auto& mine : answers) CHECK(mine == expected);
+}

@@ -1,0 +1,30 @@
+#pragma once
+#include "io/model_file.h"
+#include "models/backbone.h"
+
+/// A model with random numbers that is read and run within milliseconds: tiny_xception with a head of width 16.
+inline svnet::Model small_model(svnet::AngleEncoding angles = svnet::AngleEncoding::radians) {
+  using namespace svnet;
+  const Backbone backbone = random_backbone("tiny_xception", "", 2);
+  Model model{.backbone = "tiny_xception",
+              .backbone_output = backbone.output_name(),
+              .preprocessing = backbone.preprocessing(),
+              .backbone_graph = backbone.graph(),
+              .backbone_parameters = backbone.parameters(),
+              .angles = angles,
+              .head = sv_net({.features = backbone.dimension(), .width = 16, .angles = angles}),
+              .head_parameters = {},
+              .input_fingerprint = "small"};
+  model.head_parameters = initial_parameters(model.head, 4);
+  return model;
+}
+
+/// A picture without symmetry, of any size.
+inline svnet::Image small_picture(svnet::Index height = 70, svnet::Index width = 50) {
+  svnet::Image image{height, width, {}};
+  for (svnet::Index y = 0; y < height; ++y)
+    for (svnet::Index x = 0; x < width; ++x)
+      for (svnet::Index c = 0; c < 3; ++c)
+        image.rgb.push_back(static_cast<std::uint8_t>((y * (3 + c) + x * (7 - c) + c * 40 + x * y / 8) % 256));
+  return image;
+}

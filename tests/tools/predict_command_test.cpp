@@ -1,0 +1,105 @@
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <sys/wait.h>
+
+#include "io/image_file.h"
+#include "predict/half_sphere_plot.h"
+#include "predict/pose_grid.h"
+#include "predict/predictor.h"
+#include "small_model.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+namespace {
+
+struct Ran {
+  int status;
+  std::string out, err;
+};
+
+/// A folder with a model and a picture, and the command run in it.
+class Workplace {
+ public:
+  Workplace() {
+    write_model(folder.path() / "model.safetensors", small_model());
+    write_png(folder.path() / "top.png", small_picture());
+  }
+
+  Ran run(const std::string& arguments) const {
+    const TemporaryFolder output;
+    const std::string out = output.path() / "out", err = output.path() / "err";
+    const int status = std::system(
+        ("cd " + folder.path().string() + " && " SVNET_PREDICT " " + arguments + " >" + out + " 2>" + err).c_str());
+    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_contents(out), file_contents(err)};
+  }
+
+  TemporaryFolder folder;
+};
+
+}  // namespace
+
+TEST_CASE("svnet-predict prints the paper's grid, best first") {
+  const Workplace place;
+  const Predictor predictor(small_model());
+  const std::vector<Pose> poses = paper_grid();
+  const std::vector<float> scores = predictor.scores(predictor.embed(small_picture()), poses);
+  const std::vector<std::size_t> order = best_first(scores);
+
+  const Ran table = place.run("model.safetensors --image top.png");
+  CHECK(table.status == 0);
+  CHECK(table.err.empty());
+  CHECK(place.run("model.safetensors --image top.png --grid").out == table.out);
+  std::istringstream lines(table.out);
+  std::string theta, phi, score, rest;
+  lines >> theta >> phi >> score;
+  CHECK(theta + " " + phi + " " + score == "theta phi score");
+  for (const std::size_t i : order) {
+    REQUIRE(lines >> theta >> phi >> score);
+    CHECK(std::stod(theta) == poses[i].theta_deg);
+    CHECK(std::stod(phi) == poses[i].phi_deg);
+    CHECK(std::stod(score) == Approx(scores[i]).margin(1e-6));
+  }
+  CHECK_FALSE(lines >> rest);
+
+  const auto json = nlohmann::json::parse(place.run("model.safetensors --image top.png --json").out);
+  REQUIRE(json.at("views").size() == order.size());
+  CHECK(json.at("best") == json.at("views")[0]);
+  for (std::size_t rank = 0; rank < order.size(); ++rank) {
+    const auto& view = json.at("views")[rank];
+    CHECK(view.at("theta_deg") == poses[order[rank]].theta_deg);
+    CHECK(view.at("phi_deg") == poses[order[rank]].phi_deg);
+    CHECK(view.at("score").get<double>() == Approx(scores[order[rank]]).margin(1e-6));
+  }
+}
+
+TEST_CASE("svnet-predict takes candidates from a file and draws them") {
+  const Workplace place;
+  place.folder.write("poses.csv", "theta,phi\n10,50\n200.5,70\n-90,0\n");
+  const Ran ran = place.run("model.safetensors --image top.png --poses poses.csv --plot plot.png");
+  CHECK(ran.status == 0);
+  for (const char* part : {"10        50", "200.5        70", "-90         0"})
+    CHECK_THAT(ran.out, Catch::Contains(part));
+  const Predictor predictor(small_model());
+  const std::vector<Pose> poses{{10, 50}, {200.5, 70}, {-90, 0}};
+  const Image expected = half_sphere_plot(poses, predictor.scores(predictor.embed(small_picture()), poses));
+  CHECK(read_image(place.folder.path() / "plot.png").rgb == expected.rgb);
+}
+
+TEST_CASE("svnet-predict says what is wrong") {
+  const Workplace place;
+  place.folder.write("poses.csv", "theta,phi\n0,45\n0,95\n");
+  const Ran range = place.run("model.safetensors --image top.png --poses poses.csv --plot plot.png");
+  CHECK(range.status == 1);
+  CHECK(range.out.empty());
+  CHECK(range.err == "svnet-predict: poses.csv:3: phi 95 is outside [0, 90] degrees\n");
+  CHECK_FALSE(std::filesystem::exists(place.folder.path() / "plot.png"));
+  CHECK_THAT(place.run("none --image top.png").err, Catch::StartsWith("svnet-predict: none: cannot be read"));
+  CHECK_THAT(place.run("top.png --image top.png").err, Catch::StartsWith("svnet-predict: top.png: "));
+  CHECK_THAT(place.run("model.safetensors --image none.png").err, Catch::StartsWith("svnet-predict: none.png: "));
+  CHECK(place.run("model.safetensors").status == 2);
+  CHECK(place.run("model.safetensors --image top.png --grid --poses poses.csv").status == 2);
+}

@@ -1,0 +1,61 @@
+// svnet-predict: which camera poses show the most of an object, from its top image.
+#include <iomanip>
+#include <nlohmann/json.hpp>
+
+#include "command/command.h"
+#include "io/image_file.h"
+#include "io/pose_list_file.h"
+#include "predict/half_sphere_plot.h"
+#include "predict/pose_grid.h"
+#include "predict/predictor.h"
+
+namespace {
+
+using namespace svnet;
+
+std::string table_text(const std::vector<Pose>& poses, const std::vector<float>& scores) {
+  std::ostringstream text;
+  text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
+  for (const std::size_t i : best_first(scores))
+    text << '\n'
+         << std::setw(10) << poses[i].theta_deg << std::setw(10) << poses[i].phi_deg << std::setw(12) << std::fixed
+         << std::setprecision(6) << scores[i] << std::defaultfloat;
+  return text.str();
+}
+
+std::string json_text(const std::vector<Pose>& poses, const std::vector<float>& scores) {
+  nlohmann::ordered_json views = nlohmann::ordered_json::array();
+  for (const std::size_t i : best_first(scores))
+    views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});
+  return nlohmann::ordered_json{{"best", views.front()}, {"views", views}}.dump(2);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  namespace fs = std::filesystem;
+  Command command("svnet-predict",
+                  "Predicts from an object's top image how much views from candidate camera poses would say about it, "
+                  "and prints the poses (theta and phi in degrees) with their scores, best first.",
+                  "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
+  fs::path model, image, poses_file, plot;
+  bool grid = false, json = false;
+  CLI::App& app = command.app();
+  app.add_option("MODEL", model, "A model that svnet-train wrote (model.safetensors)")->required();
+  app.add_option("--image", image, "The object from above: a PNG, JPEG or WebP picture of any size")->required();
+  auto* poses_option = app.add_option("--poses", poses_file, "The candidates: a CSV file with the header theta,phi");
+  app.add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
+      ->excludes(poses_option);
+  app.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
+  app.add_option(
+      "--plot", plot,
+      "Writes a PNG picture of the half-sphere from above: the top view in the centre, theta 0 to the right, "
+      "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red");
+  return command.run(argc, argv, [&](Console& console) {
+    const std::vector<Pose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
+    const Predictor predictor(model);
+    const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);
+    if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));
+    console.result(json ? json_text(poses, scores) : table_text(poses, scores));
+  });
+}
