@@ -1,5 +1,6 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
 #include "command/command.h"
+#include "io/atomic_file.h"
 #include "train/run.h"
 
 int main(int argc, char** argv) {
@@ -16,7 +17,7 @@ int main(int argc, char** argv) {
       ->required();
   command.app()
       .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
-      ->check(CLI::PositiveNumber);
+      ->check(CLI::Range(Index{1}, Index{1} << 53));
   command.app().add_option("--json", json, "Writes evaluation.json here too");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
@@ -25,8 +26,11 @@ int main(int argc, char** argv) {
       check(fs::exists(source / "config.yaml"), source.string(),
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const Config config = read_config(folder_given ? source / "config.yaml" : source);
+    if (!json.empty()) check_can_be_written(json);
+    ViewDataset dataset = read_view_dataset(config.dataset.root);
+    check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     console.log_to(folder / "log.txt");
-    Run run(config, read_view_dataset(config.dataset.root), folder, console.messages());
+    Run run(config, std::move(dataset), folder, console.messages());
     const auto tables = run.evaluation(static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems),
                                        json.empty() ? std::optional<fs::path>() : json);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())

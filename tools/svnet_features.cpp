@@ -1,5 +1,6 @@
 // svnet-features: features of every picture of a dataset.
 #include "command/command.h"
+#include "io/atomic_file.h"
 #include "io/file_hash.h"
 #include "io/keras_graph.h"
 #include "train/feature_extraction.h"
@@ -12,12 +13,13 @@ int main(int argc, char** argv) {
       "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5");
   std::string backbone, layer;
   std::filesystem::path weights, images, output;
-  command.app().add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2")->required();
+  command.app().add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2 or tiny_xception")->required();
   command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required();
   command.app().add_option("--images", images, "The dataset's folder")->required();
   command.app().add_option("--output", output, "The file to write")->required();
   command.app().add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)");
   return command.run(argc, argv, [&](Console& console) {
+    check_can_be_written(output);
     KerasLoadReport report;
     const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
     console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",

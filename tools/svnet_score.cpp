@@ -1,9 +1,6 @@
 // svnet-score: Monte-Carlo semantic scores of every view of a features file.
-#include <cmath>
-#include <sstream>
-
-#include "base/sha256.h"
 #include "command/command.h"
+#include "io/atomic_file.h"
 #include "io/features_file.h"
 #include "io/scores_file.h"
 #include "io/view_dataset.h"
@@ -29,16 +26,20 @@ int main(int argc, char** argv) {
   auto* samples =
       command.app()
           .add_option("--min-samples", config.scores.min_samples, "Until every view was in so many problems")
-          ->check(CLI::PositiveNumber);
-  auto* problems =
-      command.app().add_option("--problems", config.scores.problems, "So many problems")->check(CLI::PositiveNumber);
+          ->check(CLI::Range(Index{1}, Index{1} << 53));
+  auto* problems = command.app()
+                       .add_option("--problems", config.scores.problems, "So many problems")
+                       ->check(CLI::Range(Index{1}, Index{1} << 53));
   auto* error =
       command.app()
           .add_option("--target-error", config.scores.target_error, "Until every standard error is at most this")
-          ->check(CLI::PositiveNumber);
+          ->check(CLI::Range(1e-9, 1.0));
   samples->excludes(problems)->excludes(error);
   problems->excludes(error);
-  command.app().add_option("--linkage", linkage, "ward, average, complete, single, or kmeans")->capture_default_str();
+  command.app()
+      .add_option("--linkage", linkage, "How problems are clustered")
+      ->check(CLI::IsMember({"ward", "average", "complete", "single", "kmeans"}))
+      ->capture_default_str();
   command.app()
       .add_option("--singletons", singletons,
                   "A view without a partner of its category counts 0 (zero) or is left out (skip)")
@@ -46,7 +47,7 @@ int main(int argc, char** argv) {
       ->capture_default_str();
   command.app()
       .add_option("--seed", config.seed, "Of the random problems")
-      ->check(CLI::NonNegativeNumber)
+      ->check(CLI::Range(Index{0}, Index{1} << 53))
       ->capture_default_str();
   return command.run(argc, argv, [&](Console& console) {
     auto& s = config.scores;
@@ -55,9 +56,12 @@ int main(int argc, char** argv) {
     s.clustering = clustering_from_name(linkage);
     s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
     config.dataset.held_out = excluded;
+    check_can_be_written(output);
     const ViewDataset dataset = read_view_dataset(dataset_folder);
     const Features features = read_features(features_file);
     check_rows(dataset, features.paths, features_file.string());
+    check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
+          ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
     const Scores scores =
         make_scores(dataset, features, named_categories(dataset, excluded, "--exclude"), config, console.messages());
     write_scores(output, scores);

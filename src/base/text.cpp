@@ -53,6 +53,13 @@ std::string joined_with(std::string_view separator, std::span<const std::string>
   return text;
 }
 
+std::string without_control_characters(std::string_view text) {
+  std::string clean(text);
+  for (char& c : clean)
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
+  return clean;
+}
+
 bool natural_less(std::string_view a, std::string_view b) {
   std::size_t i = 0, j = 0;
   while (i < a.size() && j < b.size()) {

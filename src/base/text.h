@@ -15,6 +15,10 @@ std::string suggestion(std::string_view name, std::span<const std::string> candi
 /// The items with the separator between them.
 std::string joined_with(std::string_view separator, std::span<const std::string> items);
 
+/// Control characters become spaces: what a file's name or a library's message brings along must not reach a terminal,
+/// nor break a line in two.
+std::string without_control_characters(std::string_view text);
+
 /// Less-than in natural order: runs of digits compare as numbers ("2" before "10"), everything else byte by byte.
 bool natural_less(std::string_view a, std::string_view b);
 

@@ -115,4 +115,9 @@ void write_atomically(const fs::path& path, std::string_view contents) {
   write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, contents); });
 }
 
+void check_can_be_written(const fs::path& path) {
+  check_target(path);
+  const Temporary temporary(path);
+}
+
 }  // namespace svnet

@@ -18,4 +18,8 @@ void write_atomically(const std::filesystem::path& path,
 /// The same for contents that are in memory.
 void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
+/// Throws the Error that write_atomically would throw for this path, as far as it can be known beforehand: to be called
+/// before the work whose result is to be written.
+void check_can_be_written(const std::filesystem::path& path);
+
 }  // namespace svnet

@@ -67,6 +67,12 @@ std::vector<FileLayer> keras3_layers(const std::filesystem::path& path, const Gr
   return layers;
 }
 
+/// "gamma" of "conv1_bn/gamma:0".
+std::string own_name(const std::string& array) {
+  const std::string last = array.substr(array.find_last_of('/') + 1);
+  return last.substr(0, last.find(':'));
+}
+
 std::string shapes_of(const std::vector<KerasArray>& arrays) {
   std::vector<std::string> texts;
   for (const auto& array : arrays) texts.push_back(to_string(array.shape));
@@ -81,6 +87,12 @@ std::string shapes_of(const std::vector<ParameterSpec>& specs) {
 
 void fill(const std::filesystem::path& path, std::size_t position, const GraphNode& node, FileLayer& layer,
           Parameters& parameters) {
+  for (std::size_t i = 0; i < std::min(layer.arrays.size(), node.parameters.size()); ++i) {
+    const std::string own = own_name(layer.arrays[i].name);
+    for (const auto& other : node.parameters)
+      check(other.name != own || own == node.parameters[i].name, path.string(), ": layer '", layer.name, "' has its '",
+            own, "' where '", node.parameters[i].name, "' belongs; the weights of a layer must be in Keras' order");
+  }
   bool fits = layer.arrays.size() == node.parameters.size();
   for (std::size_t i = 0; fits && i < layer.arrays.size(); ++i)
     fits = layer.arrays[i].shape == node.parameters[i].shape;

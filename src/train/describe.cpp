@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/features_file.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/keras_weights.h"
@@ -18,10 +19,12 @@ namespace {
 
 std::string describe_features(const std::filesystem::path& file) {
   const Features f = read_features(file);
-  return joined("features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ", f.backbone,
-                ", layer ", f.output, "\n  preprocessing  ", f.preprocessing, "\n  weights        ", f.weights_sha256,
-                "\n  dataset        ", f.dataset_fingerprint, "\n  first view     ", f.paths.front(),
-                "\n  last view      ", f.paths.back());
+  return joined(
+      "features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ",
+      without_control_characters(f.backbone), ", layer ", without_control_characters(f.output), "\n  preprocessing  ",
+      without_control_characters(f.preprocessing), "\n  weights        ", without_control_characters(f.weights_sha256),
+      "\n  dataset        ", without_control_characters(f.dataset_fingerprint), "\n  first view     ",
+      without_control_characters(f.paths.front()), "\n  last view      ", without_control_characters(f.paths.back()));
 }
 
 std::string describe_scores(const std::filesystem::path& file) {
@@ -39,14 +42,15 @@ std::string describe_scores(const std::filesystem::path& file) {
     if (std::isfinite(s.standard_error[i])) error = std::max(error, s.standard_error[i]);
   }
   return joined("semantic scores of ", s.paths.size(), " views\n  problems        ", s.problems, ", seed ", s.seed,
-                "\n  sampler         ", s.sampler, "\n  clustering      ", s.clustering, ", metric ", s.metric,
+                "\n  sampler         ", without_control_characters(s.sampler), "\n  clustering      ",
+                without_control_characters(s.clustering), ", metric ", without_control_characters(s.metric),
                 "\n  views without   ", excluded, "\n  problems a view ",
                 most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error);
 }
 
 void add_layer(std::ostringstream& text, const std::string& name, const std::vector<KerasArray>& arrays, Index& count) {
   if (arrays.empty()) return;
-  text << "\n  " << name << ":";
+  text << "\n  " << without_control_characters(name) << ":";
   for (const auto& array : arrays) {
     text << " " << to_string(array.shape);
     count += static_cast<Index>(array.values.size());
@@ -70,9 +74,10 @@ std::string describe_safetensors(const std::filesystem::path& file) {
   std::ostringstream text;
   text << "safetensors, " << f.tensors().size() << " tensors";
   for (const auto& [key, value] : f.metadata())
-    text << "\n  metadata '" << key << "': " << (value.size() > 400 ? value.substr(0, 400) + " …" : value);
+    text << "\n  metadata '" << without_control_characters(key)
+         << "': " << without_control_characters(value.size() > 400 ? value.substr(0, 400) + " …" : value);
   for (const auto& tensor : f.tensors())
-    text << "\n  " << tensor.name << ": " << tensor.dtype << " " << to_string(tensor.shape);
+    text << "\n  " << without_control_characters(tensor.name) << ": " << tensor.dtype << " " << to_string(tensor.shape);
   return text.str();
 }
 
@@ -87,7 +92,8 @@ bool is_hdf5(const std::filesystem::path& file) {
 }  // namespace
 
 std::string description_of(const std::filesystem::path& file) {
-  check(!std::filesystem::is_directory(file), file.string(), ": is a folder, expected a file");
+  check(!std::filesystem::exists(file) || std::filesystem::is_regular_file(file), file.string(),
+        ": is a folder or device, expected a file");
   if (!is_hdf5(file)) return describe_safetensors(file);
   const Hdf5File hdf5 = Hdf5File::open(file);
   if (hdf5.has("features")) return describe_features(file);

@@ -28,16 +28,17 @@ Metrics metrics_of(Worker& worker, std::size_t pipeline, const DistanceMatrix& d
           worker.contingency.purity()};
 }
 
-/// Mean and standard error of every `stride`-th value from `first` on.
-Mean mean_of(const std::vector<Metrics>& values, std::size_t first, std::size_t stride, std::size_t metric) {
-  double sum = 0, squares = 0;
-  const auto count = static_cast<double>(values.size() / stride);
-  for (std::size_t i = first; i < values.size(); i += stride) sum += values[i][metric];
-  const double mean = sum / count;
-  for (std::size_t i = first; i < values.size(); i += stride)
-    squares += (values[i][metric] - mean) * (values[i][metric] - mean);
-  return {mean, count > 1 ? std::sqrt(squares / (count - 1) / count) : 0};
-}
+/// Mean and standard error of values that come one by one (Welford 1962).
+struct RunningMean {
+  double count = 0, mean = 0, squares = 0;
+
+  void add(double value) {
+    const double before = value - mean;
+    mean += before / ++count;
+    squares += before * (value - mean);
+  }
+  Mean result() const { return {mean, count > 1 ? std::sqrt(squares / (count - 1) / count) : std::nan("")}; }
+};
 
 }  // namespace
 
@@ -82,8 +83,9 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
   }
 
   const std::size_t stride = pipelines.size() * selectors.size();
-  std::vector<Metrics> values(options.problems * stride);
   constexpr Index kBlock = 256;
+  std::vector<Metrics> values(kBlock * stride);  // of one block of problems
+  std::vector<std::array<RunningMean, 3>> means(stride);
   Progress progress(messages, task, static_cast<Index>(options.problems));
   for (Index block = 0; block < static_cast<Index>(options.problems); block += kBlock) {
     const Index size = std::min(kBlock, static_cast<Index>(options.problems) - block);
@@ -103,11 +105,13 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
               worker.problem.rows.push_back(selectors[s].view[static_cast<std::size_t>(pose)]);
           }
           for (std::size_t p = 0; p < pipelines.size(); ++p)
-            values[problem_number * stride + p * selectors.size() + s] =
+            values[static_cast<std::size_t>(i - block) * stride + p * selectors.size() + s] =
                 metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
         }
       }
     });
+    for (std::size_t i = 0; i < static_cast<std::size_t>(size) * stride; ++i)
+      for (std::size_t m = 0; m < kMetricNames.size(); ++m) means[i % stride][m].add(values[i][m]);
     progress.update(block + size);
   }
 
@@ -118,8 +122,7 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
     table.pipelines.push_back(pipelines[p].name);
     auto& row = table.cells.emplace_back(selectors.size());
     for (std::size_t s = 0; s < selectors.size(); ++s)
-      for (std::size_t m = 0; m < kMetricNames.size(); ++m)
-        row[s][m] = mean_of(values, p * selectors.size() + s, stride, m);
+      for (std::size_t m = 0; m < kMetricNames.size(); ++m) row[s][m] = means[p * selectors.size() + s][m].result();
   }
   return table;
 }

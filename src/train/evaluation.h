@@ -34,7 +34,7 @@ struct EvaluationPipeline {
 
 struct Mean {
   double mean = 0;
-  double standard_error = 0;
+  double standard_error = 0;  // NaN for a single problem
 };
 
 /// fm, nmi, purity.

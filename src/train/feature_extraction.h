@@ -7,8 +7,8 @@
 namespace svnet {
 
 /// Features of every view of the dataset, in its order. Pictures are read and prepared in parallel, then a batch runs
-/// through the backbone; batches have a fixed size, so the result depends on nothing but pictures and weights.
-/// `origin` is copied into the result.
+/// through the backbone; batches have a fixed size, so the result is the same for any number of threads. A picture's
+/// neighbours in its batch may change its features' last bits. `origin` is copied into the result.
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages);
 

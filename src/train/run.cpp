@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "io/atomic_file.h"
-#include "train/feature_extraction.h"
+#include "io/keras_graph.h"
+#include "train/scores_stage.h"
 
 namespace svnet {
 namespace {
@@ -41,28 +41,59 @@ Run::Run(Config config, ViewDataset dataset, fs::path folder, const Messages& me
   say(joined("dataset ", config_.dataset.root.string(), ": ", dataset_.categories.size(), " categories, ",
              dataset_.objects.size(), " objects, ", dataset_.poses.size(), " poses, ", dataset_.views.size(),
              " views"));
-  write_atomically(folder_ / "config.yaml", to_yaml(config_));
+  check_config();
+}
+
+void Run::check_config() {
+  const auto check_backbone = [&](const std::string& name, const std::string& layer) {
+    const BackboneKind& kind = backbone_kind(name);
+    output_layer(kind, kind.graph(kind.preprocessing.height, true), layer);
+    if (!config_.weights.folder.empty()) find_weights(kind, config_.weights.folder);
+  };
+  check_backbone(config_.scores.backbone, config_.scores.layer);
+  check_backbone(config_.sv_net.backbone, config_.sv_net.layer);
+  for (const auto& name : config_.evaluation.pipelines)
+    check_backbone(parse_pipeline(name, "evaluation.pipelines").backbone, "");
+  static_cast<void>(validation_categories());
+  clustering_problems(dataset_, held_out_, config_.scores);
+  if (std::count(held_out_.begin(), held_out_.end(), true) >= 2) {
+    std::vector<bool> trained_on = held_out_;
+    trained_on.flip();
+    clustering_problems(dataset_, trained_on, config_.scores);
+  }
+}
+
+const BackboneWithOrigin& Run::backbone(const std::string& name, const std::string& layer) {
+  const std::string key = name + "/" + layer;
+  const auto found = backbones_.find(key);
+  if (found != backbones_.end()) return found->second;
+  return backbones_
+      .emplace(key, backbone_from_folder(name, layer, config_.weights.folder, static_cast<std::uint64_t>(config_.seed)))
+      .first->second;
+}
+
+std::string Run::features_fingerprint(const std::string& name, const std::string& layer) {
+  return features_origin(backbone(name, layer), dataset_fingerprint_).input_fingerprint;
 }
 
 void Run::say(const std::string& line) const {
   if (messages_.line) messages_.line(line);
 }
 
-const Features& Run::features(const std::string& backbone, const std::string& layer) {
-  const fs::path path = folder_ / ("features-" + backbone + (layer.empty() ? "" : "-" + layer) + ".h5");
+const Features& Run::features(const std::string& name, const std::string& layer) {
+  const fs::path path = folder_ / ("features-" + name + (layer.empty() ? "" : "-" + layer) + ".h5");
   const auto found = features_.find(path);
   return found != features_.end() ? found->second
-                                  : features_.emplace(path, made_features(path, backbone, layer)).first->second;
+                                  : features_.emplace(path, made_features(path, name, layer)).first->second;
 }
 
-Features Run::made_features(const fs::path& path, const std::string& backbone, const std::string& layer) const {
-  const auto source =
-      backbone_from_folder(backbone, layer, config_.weights.folder, static_cast<std::uint64_t>(config_.seed));
+Features Run::made_features(const fs::path& path, const std::string& name, const std::string& layer) {
+  const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, dataset_fingerprint_);
   const auto have = read_if_possible(path, messages_, read_features_origin);
   if (have && have->input_fingerprint == origin.input_fingerprint)
     if (auto features = read_if_possible(path, messages_, read_features)) {
-      say(joined("features of ", backbone, ": reused ", path.filename().string()));
+      say(joined("features of ", name, ": reused ", path.filename().string()));
       return std::move(*features);
     }
   Features features = extract_features(source.backbone, dataset_, origin, messages_);

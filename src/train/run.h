@@ -10,6 +10,7 @@
 #include "io/view_dataset.h"
 #include "train/config/config.h"
 #include "train/evaluation_text.h"
+#include "train/feature_extraction.h"
 #include "train/training_set.h"
 
 namespace svnet {
@@ -21,8 +22,9 @@ namespace svnet {
 ///   evaluation.json
 class Run {
  public:
-  /// Hashes the dataset's pictures. The folder is made where it does not exist, and gets the resolved config.yaml.
-  /// Throws Error for a configuration that does not fit the dataset.
+  /// Hashes the dataset's pictures and checks, before any work, what the configuration asks for: categories, backbones,
+  /// layers, weights, pipelines, problems. The folder is made where it does not exist. Throws Error for what does not
+  /// fit.
   Run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages);
 
   const Config& config() const { return config_; }
@@ -34,16 +36,22 @@ class Run {
   const Scores& scores();
 
   enum class Resume { automatic, never };
-  /// Trains, or goes on training where a checkpoint of the same run was left, and writes the model.
+  /// Writes config.yaml, trains, or goes on training where a checkpoint of the same run was left, and writes the model.
   Model model(Resume resume = Resume::automatic);
 
   /// Both tables, of training and of held-out categories, and evaluation.json (also copied to `json` where given).
+  /// Throws Error where the folder holds no model of this configuration: evaluating never trains.
   EvaluationTables evaluation(std::uint64_t problems, const std::optional<std::filesystem::path>& json = {});
 
  private:
-  Features made_features(const std::filesystem::path& path, const std::string& backbone,
-                         const std::string& layer) const;
-  std::string model_fingerprint(const std::string& features_fingerprint, const std::string& scores_fingerprint) const;
+  void check_config();
+  /// The backbone with its weights, loaded once.
+  const BackboneWithOrigin& backbone(const std::string& name, const std::string& layer);
+  std::string features_fingerprint(const std::string& backbone, const std::string& layer);
+  Features made_features(const std::filesystem::path& path, const std::string& backbone, const std::string& layer);
+  /// Of the model that this configuration leads to.
+  std::string model_fingerprint();
+  Model trained_model();
   void train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume);
   std::vector<bool> validation_categories() const;
   std::vector<double> predicted_scores(const Model& model, const Features& features) const;
@@ -55,6 +63,7 @@ class Run {
   ViewDataset dataset_;
   std::vector<bool> held_out_;  // per category
   std::string dataset_fingerprint_;
+  std::map<std::string, BackboneWithOrigin> backbones_;
   std::map<std::filesystem::path, Features> features_;  // by their file
   std::optional<Scores> scores_;
 };

@@ -11,8 +11,9 @@
 namespace svnet {
 namespace {
 
-ViewDataset sample_of(const ViewDataset& whole) {
-  constexpr Index kObjects = 2, kViews = 3;
+/// The first `objects` objects of each category, in one pose, by their top view and three others.
+ViewDataset sample_of(const ViewDataset& whole, Index objects) {
+  constexpr Index kViews = 3;
   ViewDataset sample;
   sample.root = whole.root;
   sample.categories = whole.categories;
@@ -20,7 +21,7 @@ ViewDataset sample_of(const ViewDataset& whole) {
   Index last_object = -1;
   for (const auto& pose : whole.poses) {
     Index& taken = objects_taken[static_cast<std::size_t>(pose.category)];
-    if (pose.object == last_object || taken == kObjects) continue;
+    if (pose.object == last_object || taken == objects) continue;
     last_object = pose.object;
     ++taken;
     sample.objects.push_back(whole.objects[static_cast<std::size_t>(pose.object)]);
@@ -65,7 +66,7 @@ class ScratchFolder {
 }  // namespace
 
 EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optional<std::filesystem::path>& json) {
-  const Model model = this->model();
+  const Model model = trained_model();
   const Scores& scores = this->scores();
   const std::vector<double> predicted =
       predicted_scores(model, features(config_.sv_net.backbone, config_.sv_net.layer));
@@ -119,7 +120,9 @@ void dry_run(const Config& config, const ViewDataset& dataset, const Messages& m
   small.scores.target_error = 0;
   small.training.epochs = 1;
   const ScratchFolder folder;
-  Run(small, sample_of(dataset), folder.path(), messages).evaluation(10);
+  Run run(small, sample_of(dataset, std::max<Index>(2, config.scores.min_objects)), folder.path(), messages);
+  run.model();
+  run.evaluation(10);
 }
 
 }  // namespace svnet

@@ -8,8 +8,8 @@
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
 #include "nn/graph/run.h"
-#include "train/feature_extraction.h"
 #include "train/run.h"
+#include "train/scores_stage.h"
 #include "train/trainer.h"
 
 namespace svnet {
@@ -59,15 +59,15 @@ std::vector<bool> Run::validation_categories() const {
   return chosen;
 }
 
-std::string Run::model_fingerprint(const std::string& features_fingerprint,
-                                   const std::string& scores_fingerprint) const {
+std::string Run::model_fingerprint() {
+  const std::string features = features_fingerprint(config_.sv_net.backbone, config_.sv_net.layer);
+  const std::string scores =
+      scores_fingerprint(features_fingerprint(config_.scores.backbone, config_.scores.layer), config_);
   const auto& n = config_.sv_net;
   const auto& t = config_.training;
   Sha256 hash;
-  hash.update_field("model 1")
-      .update_field(features_fingerprint)
-      .update_field(scores_fingerprint)
-      .update_field(joined_with("\n", config_.dataset.held_out));
+  hash.update_field("model 1").update_field(features).update_field(scores).update_field(
+      joined_with("\n", config_.dataset.held_out));
   hash.update_field(joined(config_.seed, " ", n.width, " ", static_cast<int>(n.angles), " ", static_cast<int>(n.target),
                            " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
                            static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
@@ -76,9 +76,10 @@ std::string Run::model_fingerprint(const std::string& features_fingerprint,
 }
 
 Model Run::model(Resume resume) {
+  write_atomically(folder_ / "config.yaml", to_yaml(config_));
   const Scores& scores = this->scores();
   const Features& features = this->features(config_.sv_net.backbone, config_.sv_net.layer);
-  const std::string wanted = model_fingerprint(features.input_fingerprint, scores.input_fingerprint);
+  const std::string wanted = model_fingerprint();
   const auto path = folder_ / "model.safetensors";
   if (std::filesystem::exists(path) && resume == Resume::automatic) try {
       if (Model model = read_model(path); model.input_fingerprint == wanted) {
@@ -89,8 +90,7 @@ Model Run::model(Resume resume) {
       say(joined("made again: ", error.what()));
     }
 
-  auto source = backbone_from_folder(config_.sv_net.backbone, config_.sv_net.layer, config_.weights.folder,
-                                     static_cast<std::uint64_t>(config_.seed));
+  const BackboneWithOrigin& source = backbone(config_.sv_net.backbone, config_.sv_net.layer);
   const AngleEncoding angles = encoding(config_.sv_net.angles);
   Model model{.backbone = source.backbone.kind().name,
               .backbone_output = source.backbone.output_name(),
@@ -118,6 +118,16 @@ Model Run::model(Resume resume) {
              validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, training_set, validation_set ? &*validation_set : nullptr, resume);
   write_model(path, model);
+  return model;
+}
+
+Model Run::trained_model() {
+  const auto path = folder_ / "model.safetensors";
+  check(std::filesystem::exists(path), folder_.string(), ": holds no trained model; run svnet-train first");
+  Model model = read_model(path);
+  check(model.input_fingerprint == model_fingerprint(), path.string(),
+        ": was trained with another configuration, other pictures or other weights; run svnet-train with this "
+        "configuration first");
   return model;
 }
 

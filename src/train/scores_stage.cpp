@@ -31,6 +31,11 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
   }
   for (std::size_t c = 0; c < excluded.size(); ++c)
     if (excluded[c]) excluded_numbers.push_back(static_cast<std::int64_t>(c));
+  std::vector<Index> objects(dataset.categories.size(), 0);
+  for (const auto& each : dataset.objects) ++objects[static_cast<std::size_t>(each.category)];
+  for (std::size_t c = 0; c < objects.size(); ++c)
+    check(excluded[c] || objects[c] >= config.min_objects, "scores.min_objects: ", config.min_objects,
+          ", but category '", dataset.categories[c], "' has ", objects[c], " objects");
   const auto available = static_cast<Index>(excluded.size() - excluded_numbers.size());
   return {category, object, pose,
           ProblemOptions{.min_categories = std::min(config.min_categories, available),

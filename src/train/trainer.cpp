@@ -1,10 +1,12 @@
 #include "train/trainer.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
+#include "base/parallel.h"
 #include "base/random.h"
 #include "nn/autograd.h"
 #include "nn/graph/run.h"
@@ -25,7 +27,19 @@ std::vector<std::int32_t> shuffled(Index count, std::uint64_t seed, Index epoch)
   return order;
 }
 
-/// Where batch `number` ends: a last batch of a single example joins the batch before it.
+bool all_finite(const Tensor& x) {
+  std::atomic<bool> finite{true};
+  Parallel::shared().for_chunks(x.defined() ? x.size() : 0, 1 << 16, [&](Index begin, Index end, int) {
+    bool here = true;
+    for (const float value :
+         x.values<float>().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)))
+      here = here && std::isfinite(value);
+    if (!here) finite = false;
+  });
+  return finite;
+}
+
+/// Where a batch ends: a last batch of a single example joins the batch before it.
 Index batch_end(Index begin, Index batch_size, Index count) {
   const Index end = std::min(begin + batch_size, count);
   return count - end == 1 ? count : end;
@@ -76,6 +90,9 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
         "; a smaller learning rate may help");
   autograd::GradientMap gradients;
   autograd::backward(loss, gradients);
+  for (const Tensor& parameter : trainable(graph_, parameters))
+    check(all_finite(gradients.of(parameter)), "[training] a gradient is not finite at step ", optimizer.steps,
+          "; a smaller learning rate may help");
   optimizer.step(gradients, options_.schedule.at(optimizer.steps));
   return loss.item();
 }

@@ -10,6 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/text.h"
 #include "base/version.h"
 #include "command/progress_text.h"
 #include "temporary_folder.h"

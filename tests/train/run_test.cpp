@@ -40,7 +40,9 @@ struct Log {
 
 /// Trains and evaluates in `folder` and returns the hashes of all results.
 std::vector<std::string> results(const Config& config, const std::filesystem::path& folder, const Messages& messages) {
-  Run(config, read_view_dataset(config.dataset.root), folder, messages).evaluation(40);
+  Run run(config, read_view_dataset(config.dataset.root), folder, messages);
+  run.model();
+  run.evaluation(40);
   std::vector<std::string> hashes;
   for (const char* name : {"features-tiny_xception.h5", "scores.h5", "checkpoint-last.safetensors",
                            "checkpoint-best.safetensors", "metrics.csv", "model.safetensors", "evaluation.json"})
@@ -150,7 +152,7 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
-  const auto run = [&] { Run(config, dataset, temporary.path() / "run", {}).model(); };
+  const auto run = [&] { Run(config, dataset, temporary.path() / "run", {}); };
   config.dataset.held_out = {"rings"};
   CHECK_THROWS_WITH(run(), "dataset.held_out: the dataset has no category 'rings', did you mean 'ring'?");
   config.dataset.held_out = {"ring", "cube", "cone"};
@@ -158,4 +160,32 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   config.dataset.held_out = {"ring"};
   config.training.validation_categories = 2;
   CHECK_THROWS_WITH(run(), "training.validation_categories: 2 of 3 training categories leave fewer than 2 to train on");
+  config.training.validation_categories = 0;
+  config.sv_net.backbone = "resnet";
+  CHECK_THROWS_WITH(run(), Catch::Contains("there is no backbone 'resnet'"));
+  config.sv_net.backbone = "tiny_xception";
+  config.sv_net.layer = "block9";
+  CHECK_THROWS_WITH(run(), Catch::Contains("no layer 'block9'"));
+  config.sv_net.layer = "";
+  config.evaluation.pipelines = {"foo_ward"};
+  CHECK_THROWS_WITH(run(), Catch::Contains("there is no backbone 'foo'"));
+  config.evaluation.pipelines = {"tiny_xception_ward"};
+  config.scores.min_objects = 3;
+  CHECK_THROWS_WITH(run(), "scores.min_objects: 3, but category 'ball' has 2 objects");
+  CHECK_FALSE(std::filesystem::exists(temporary.path() / "run/config.yaml"));
+}
+
+TEST_CASE("evaluating never trains") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  const auto evaluate = [&] {
+    Run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {}).evaluation(10);
+  };
+  CHECK_THROWS_WITH(evaluate(),
+                    (temporary.path() / "run").string() + ": holds no trained model; run svnet-train first");
+  const auto before = results(config, temporary.path() / "run", {});
+  config.training.epochs = 5;
+  CHECK_THROWS_WITH(evaluate(), Catch::Contains("model.safetensors: was trained with another configuration"));
+  CHECK(file_sha256(temporary.path() / "run/model.safetensors") == before[5]);
 }

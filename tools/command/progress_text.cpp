@@ -61,11 +61,4 @@ std::string progress_bar(const TaskState& state, int columns) {
   return line.substr(0, length);
 }
 
-std::string without_control_characters(std::string_view text) {
-  std::string clean(text);
-  for (char& c : clean)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return clean;
-}
-
 }  // namespace svnet

@@ -27,8 +27,4 @@ std::string final_progress(const TaskState& state);
 /// The same with a bar, cut to less than `columns`: "scores  [######----]  58 %, 830/1440, …"
 std::string progress_bar(const TaskState& state, int columns);
 
-/// Control characters become spaces: what a file's name or a library's message brings along must not reach a terminal,
-/// nor break a line in two.
-std::string without_control_characters(std::string_view text);
-
 }  // namespace svnet

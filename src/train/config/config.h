@@ -9,7 +9,7 @@
 namespace svnet {
 
 /// What svnet-train and svnet-eval are told: the keys of a configuration file, with their defaults. Their meanings and
-/// ranges stand in one table in config.cpp; configs/paper.yaml shows them all. Backbones are names of the registry.
+/// ranges stand in one table in config_table.cpp; configs/paper.yaml shows them all. Backbones are names of the registry.
 struct Config {
   struct Dataset {
     std::filesystem::path root;
