@@ -138,7 +138,7 @@ TEST_CASE("a result that cannot be written is a failure") {
   CHECK(WEXITSTATUS(status) == 1);
 }
 
-TEST_CASE("--threads goes before SVNET_THREADS") {
+TEST_CASE("the option --threads goes before SVNET_THREADS") {
   CHECK(run("threads --threads 3", "SVNET_THREADS=2").out == "3\n");
   CHECK(run("threads", "SVNET_THREADS=2").out == "2\n");
 }
