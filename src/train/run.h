@@ -59,7 +59,7 @@ class Run {
 
   Config config_;
   std::filesystem::path folder_;
-  const Messages& messages_;
+  Messages messages_;
   ViewDataset dataset_;
   std::vector<bool> held_out_;  // per category
   std::string dataset_fingerprint_;
