@@ -56,7 +56,7 @@ int initial_threads() {
 /// One call of for_chunks, shared by the threads that work on it.
 struct Job {
   Index count, chunk, chunks;
-  const Parallel::Body* body;
+  Parallel::Body body;
   std::atomic<Index> next{0};
   std::mutex mutex{};
   std::exception_ptr error{};
@@ -66,7 +66,7 @@ struct Job {
     InsideBody inside;
     for (Index i; (i = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
       try {
-        (*body)(i * chunk, std::min(count, (i + 1) * chunk), worker);
+        body(i * chunk, std::min(count, (i + 1) * chunk), worker);
       } catch (...) {
         std::lock_guard lock(mutex);
         if (i < error_chunk) {
@@ -148,11 +148,11 @@ void Parallel::resize(int threads) {
   pool_->start(threads);
 }
 
-void Parallel::for_chunks(Index count, Index chunk, const Body& body) {
+void Parallel::for_chunks(Index count, Index chunk, Body body) {
   if (count <= 0) return;
   chunk = std::max<Index>(chunk, 1);
   const Index chunks = (count + chunk - 1) / chunk;
-  Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = &body};
+  Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = body};
   std::unique_lock call(pool_->call, std::defer_lock);
   if (chunks > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
     {

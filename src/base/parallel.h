@@ -1,7 +1,7 @@
 #pragma once
-#include <functional>
 #include <memory>
 
+#include "base/function_ref.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -15,7 +15,7 @@ class Parallel {
  public:
   /// body(begin, end, worker): `worker` is in [0, threads()) and no two bodies run with the same worker at once
   /// within one call; use it to index scratch memory.
-  using Body = std::function<void(Index begin, Index end, int worker)>;
+  using Body = FunctionRef<void(Index begin, Index end, int worker)>;
 
   explicit Parallel(int threads);
   ~Parallel();
@@ -27,8 +27,8 @@ class Parallel {
   void resize(int threads);
 
   /// Runs body on [0, chunk), [chunk, 2 chunk), … up to `count`, in any order, and returns when all are done.
-  /// If bodies throw, the exception of the lowest chunk is rethrown.
-  void for_chunks(Index count, Index chunk, const Body& body);
+  /// If bodies throw, the exception of the lowest chunk is rethrown. Allocates nothing.
+  void for_chunks(Index count, Index chunk, Body body);
 
   /// The pool of the process. It starts with SVNET_THREADS threads, or as many as the affinity mask has CPUs.
   static Parallel& shared();

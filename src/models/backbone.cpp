@@ -1,7 +1,6 @@
 #include "models/backbone.h"
 
 #include "base/parallel.h"
-#include "nn/graph/run.h"
 
 namespace svnet {
 
@@ -10,11 +9,10 @@ Backbone::Backbone(const BackboneKind& kind, Graph graph, Parameters parameters,
       graph_(std::move(graph)),
       parameters_(std::move(parameters)),
       output_(output_layer(kind, graph_, layer)),
-      inference_(folded(graph_, parameters_, output_)) {}
+      inference_(std::make_shared<Inference>(graph_, parameters_, output_)) {}
 
 Tensor Backbone::features(const Tensor& batch) const {
-  const Tensor output = infer(inference_.graph, inference_.parameters, {batch}, {inference_.graph.output()})[0];
-  return output.reshaped({batch.dim(0), dimension()});
+  return inference_->run({batch}).reshaped({batch.dim(0), dimension()});
 }
 
 Tensor Backbone::batch(std::span<const Image> images) const {

@@ -1,11 +1,12 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <string>
 
 #include "models/image/image.h"
 #include "models/registry.h"
 #include "nn/graph/parameters.h"
-#include "nn/runtime/folding.h"
+#include "nn/runtime/inference.h"
 
 namespace svnet {
 
@@ -33,7 +34,7 @@ class Backbone {
   Graph graph_;
   Parameters parameters_;
   NodeId output_;
-  FoldedGraph inference_;  // what runs
+  std::shared_ptr<const Inference> inference_;  // what runs
 };
 
 /// The backbone with seeded random weights and no top.

@@ -4,12 +4,30 @@
 #include "models/mobilenet.h"
 #include "models/mobilenet_v2.h"
 #include "models/tiny_xception.h"
+#include "models/vgg.h"
+#include "models/xception.h"
 
 namespace svnet {
 
 const std::vector<BackboneKind>& backbone_kinds() {
   static const Preprocessing tf{.mode = PixelMode::tf, .height = 224, .width = 224};
+  static const Preprocessing caffe{.mode = PixelMode::caffe, .height = 224, .width = 224};
   static const std::vector<BackboneKind> kinds{
+      {"vgg16",
+       "block5_pool",
+       caffe,
+       models::vgg16,
+       {"vgg16_weights_tf_dim_ordering_tf_kernels_notop.h5", "vgg16_weights_tf_dim_ordering_tf_kernels.h5"}},
+      {"vgg19",
+       "block5_pool",
+       caffe,
+       models::vgg19,
+       {"vgg19_weights_tf_dim_ordering_tf_kernels_notop.h5", "vgg19_weights_tf_dim_ordering_tf_kernels.h5"}},
+      {"xception",
+       "avg_pool",
+       {.mode = PixelMode::tf, .height = 299, .width = 299},
+       models::xception,
+       {"xception_weights_tf_dim_ordering_tf_kernels_notop.h5", "xception_weights_tf_dim_ordering_tf_kernels.h5"}},
       {"mobilenet",
        "global_average_pooling2d",
        tf,

@@ -5,17 +5,12 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "nn/graph/run.h"
 
 namespace svnet {
 namespace {
 
 /// Poses that the head sees at once: enough to read its weights seldom, few enough that repeated features stay small.
 constexpr Index kPosesAtOnce = 32;
-
-FoldedGraph folded_backbone(const Model& model) {
-  return folded(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output));
-}
 
 /// Azimuth in [0, 360): a model that is fed plain angles has seen no other.
 double within_one_turn(double theta_deg) {
@@ -37,9 +32,9 @@ Predictor::Predictor(const std::filesystem::path& model_file) : Predictor(read_m
 Predictor::Predictor(const Model& model)
     : preprocessing_(model.preprocessing),
       angles_(model.angles),
-      backbone_(folded_backbone(model)),
-      head_(folded(model.head, model.head_parameters, model.head.output())) {
-  feature_count_ = element_count(backbone_.graph.node(backbone_.graph.output()).shape);
+      backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output)),
+      head_(model.head, model.head_parameters, model.head.output()) {
+  feature_count_ = element_count(backbone_.output_shape());
 }
 
 Tensor Predictor::embed(const Image& top) const {
@@ -47,7 +42,7 @@ Tensor Predictor::embed(const Image& top) const {
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
   Tensor batch = Tensor::empty({1, preprocessing_.height, preprocessing_.width, 3});
   prepare(preprocessing_, top, batch.data<float>());
-  const Tensor features = infer(backbone_.graph, backbone_.parameters, {batch}, {backbone_.graph.output()})[0];
+  const Tensor features = backbone_.run({batch});
   check_finite(features, "feature");
   return features.reshaped({1, feature_count_});
 }
@@ -72,7 +67,7 @@ std::vector<float> Predictor::scores(const Tensor& features, std::span<const Pos
       std::copy_n(features.data<float>(), feature_count_, repeated.data<float>() + i * feature_count_);
       encode_angles(angles_, within_one_turn(pose.theta_deg), pose.phi_deg, encoded.data<float>() + i * angles);
     }
-    const Tensor values = infer(head_.graph, head_.parameters, {repeated, encoded}, {head_.graph.output()})[0];
+    const Tensor values = head_.run({repeated, encoded});
     check_finite(values, "score");
     result.insert(result.end(), values.data<float>(), values.data<float>() + size);
   }

@@ -6,7 +6,7 @@
 #include "io/model_file.h"
 #include "models/image/image.h"
 #include "models/pose.h"
-#include "nn/runtime/folding.h"
+#include "nn/runtime/inference.h"
 
 namespace svnet {
 
@@ -26,15 +26,15 @@ class Predictor {
   Tensor embed(const Image& top) const;
 
   /// One score per pose, in order. Poses a whole turn apart have the same score. Throws Error unless features are
-  /// (1, D) finite f32, and every pose is in range (models/pose.h). A score may differ by rounding with the poses that
-  /// it is asked for together with.
+  /// (1, D) finite f32, and every pose is in range (models/pose.h). A score does not depend on the
+  /// poses that it is asked for together with.
   std::vector<float> scores(const Tensor& features, std::span<const Pose> poses) const;
 
  private:
   Preprocessing preprocessing_;
   AngleEncoding angles_;
   Index feature_count_;
-  FoldedGraph backbone_, head_;
+  Inference backbone_, head_;
 };
 
 /// The number of the highest score, the first among equals. Throws Error where there is none.

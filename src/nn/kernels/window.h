@@ -27,6 +27,10 @@ struct Window {
   Index oh, ow;
 
   Index positions() const { return n * oh * ow; }
+  /// Whether each window is one pixel, in the image's order.
+  bool reads_in_place() const {
+    return kh == 1 && kw == 1 && stride_h == 1 && stride_w == 1 && top == 0 && left == 0 && oh == h && ow == w;
+  }
 };
 
 /// What describes a window before the image is known.

@@ -1,9 +1,7 @@
 #include "nn/ops/activations.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "nn/autograd.h"
+#include "nn/kernels/activation/activation.h"
 #include "nn/ops/checks.h"
 
 namespace svnet::ops {
@@ -54,12 +52,7 @@ Tensor relu6(const Tensor& x) {
 
 Tensor sigmoid(const Tensor& x) {
   return elementwise(
-      "sigmoid", x,
-      []<class T>(T v) {
-        const T e = std::exp(-std::abs(v));  // never overflows
-        return v >= T{0} ? T{1} / (T{1} + e) : e / (T{1} + e);
-      },
-      []<class T>(T y) { return y * (T{1} - y); });
+      "sigmoid", x, []<class T>(T v) { return kernels::sigmoid(v); }, []<class T>(T y) { return y * (T{1} - y); });
 }
 
 Tensor softmax(const Tensor& x) {
@@ -67,14 +60,8 @@ Tensor softmax(const Tensor& x) {
   Tensor y = Tensor::empty(x.shape(), x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
     pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
-      for (Index row = begin; row < end; ++row) {
-        const T* from = x.data<T>() + row * classes;
-        T* to = y.data<T>() + row * classes;
-        const T largest = *std::max_element(from, from + classes);
-        T sum{0};
-        for (Index c = 0; c < classes; ++c) sum += to[c] = std::exp(from[c] - largest);
-        for (Index c = 0; c < classes; ++c) to[c] /= sum;
-      }
+      for (Index row = begin; row < end; ++row)
+        kernels::softmax_row(classes, x.data<T>() + row * classes, y.data<T>() + row * classes);
     });
   });
   return autograd::record(y, {x}, [=](const Tensor& dy, autograd::Gradients& g) {

@@ -14,11 +14,6 @@ Index tile_positions(const Conv2dShape& s) {
   return std::clamp<Index>((128 * 1024) / std::max<Index>(row, 1), 16, 512);
 }
 
-bool reads_in_place(const Window& w) {
-  return w.kh == 1 && w.kw == 1 && w.stride_h == 1 && w.stride_w == 1 && w.top == 0 && w.left == 0 && w.oh == w.h &&
-         w.ow == w.w;
-}
-
 /// Calls body(kh, kw, source) for each window position of output `position`; source is the offset of the pixel's
 /// channels in x, or -1 in the border.
 template <class Body>
@@ -46,7 +41,7 @@ template <class T>
 void conv2d(Parallel& parallel, const Conv2dShape& s, const T* x, const T* w, T* y, const Epilogue<T>& epilogue) {
   const Window& win = s.window;
   const Index depth = win.kh * win.kw * win.c;
-  if (reads_in_place(win)) return gemm(parallel, {.m = win.positions(), .n = s.k, .k = depth}, x, w, y, epilogue);
+  if (win.reads_in_place()) return gemm(parallel, {.m = win.positions(), .n = s.k, .k = depth}, x, w, y, epilogue);
   const Index tile = tile_positions(s);
   std::vector<std::vector<T>> scratch(static_cast<std::size_t>(parallel.threads()));
   parallel.for_chunks(win.positions(), tile, [&](Index begin, Index end, int worker) {
@@ -67,7 +62,7 @@ template <class T>
 void conv2d_input_gradient(Parallel& parallel, const Conv2dShape& s, const T* dy, const T* w, T* dx) {
   const Window& win = s.window;
   const Index depth = win.kh * win.kw * win.c;
-  if (reads_in_place(win))
+  if (win.reads_in_place())
     return gemm(parallel, {.m = win.positions(), .n = depth, .k = s.k, .transpose_b = true}, dy, w, dx);
   // Windows of one image overlap; images do not.
   const Index per_image = win.oh * win.ow, tile = tile_positions(s);
@@ -90,7 +85,7 @@ void conv2d_input_gradient(Parallel& parallel, const Conv2dShape& s, const T* dy
 template <class T>
 void conv2d_weight_gradient(Parallel& parallel, const Conv2dShape& s, const T* x, const T* dy, T* dw) {
   const Window& win = s.window;
-  if (reads_in_place(win))
+  if (win.reads_in_place())
     return gemm(parallel, {.m = win.c, .n = s.k, .k = win.positions(), .transpose_a = true}, x, dy, dw);
   const Index tile = std::clamp<Index>((128 * 1024) / std::max<Index>(win.c, 1), 16, 1024);
   parallel.for_chunks(win.kh * win.kw, 1, [&](Index tap, Index, int) {

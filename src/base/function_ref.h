@@ -1,0 +1,31 @@
+#pragma once
+#include <memory>
+#include <type_traits>
+#include <utility>
+
+namespace svnet {
+
+template <class Signature>
+class FunctionRef;
+
+/// A reference to anything that can be called: unlike std::function it owns nothing and never allocates, so what it
+/// refers to must outlive it. Made for parameters.
+template <class Result, class... Arguments>
+class FunctionRef<Result(Arguments...)> {
+ public:
+  template <class Callable>
+  requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
+      FunctionRef(Callable&& callable)  // NOLINT(google-explicit-constructor): a parameter takes any callable
+      : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
+        call_([](void* what, Arguments... arguments) -> Result {
+          return (*static_cast<std::remove_reference_t<Callable>*>(what))(std::forward<Arguments>(arguments)...);
+        }) {}
+
+  Result operator()(Arguments... arguments) const { return call_(callable_, std::forward<Arguments>(arguments)...); }
+
+ private:
+  void* callable_;
+  Result (*call_)(void*, Arguments...);
+};
+
+}  // namespace svnet

@@ -1,0 +1,16 @@
+#pragma once
+#include "base/parallel.h"
+#include "nn/kernels/packed/packed_gemm.h"
+#include "nn/kernels/window.h"
+
+namespace svnet::kernels {
+
+/// y (N, OH, OW, K) = finish(x * weights): the weights are those of (KH · KW · C, K). Windows are gathered block by
+/// block, never whole; a 1×1 window of stride 1 is read in place. `scratch(worker)` must hold packed_conv2d_scratch
+/// numbers.
+void packed_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& weights,
+                   const PackedFinish& finish, float* y, float* scratch);
+/// Numbers of scratch memory for `threads` threads; 0 where none is needed.
+Index packed_conv2d_scratch(const Window& window, int threads);
+
+}  // namespace svnet::kernels

@@ -1,0 +1,35 @@
+#pragma once
+#include "base/index.h"
+
+namespace svnet::kernels {
+
+/// Columns of a panel. Weights (k, n) are laid out [n / 16][k][16], the last panel filled up with zeros, on every
+/// instruction set: one row of a panel is one cache line.
+inline constexpr Index kPanel = 16;
+
+inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
+
+/// The left operand of a product with a panel: number (row, k) lies at
+/// data[k / 16 · block_stride + row · row_stride + k % 16]. Plain rows have block_stride 16.
+struct PanelRows {
+  const float* data;
+  Index row_stride, block_stride;
+};
+
+/// What is done to the sums of a tile before they are stored: y = clamp(y + bias + residual, low, high); NaN stays NaN.
+struct TileFinish {
+  const float* bias;      // of the panel's 16 columns
+  const float* residual;  // (rows, 16), or nullptr
+  Index residual_stride;
+  float low, high;
+};
+
+/// Where a tile (rows, 16) goes. With accumulate, what is there is added to.
+struct TileOutput {
+  float* c;
+  Index stride;
+  bool accumulate = false;
+  const TileFinish* finish = nullptr;
+};
+
+}  // namespace svnet::kernels

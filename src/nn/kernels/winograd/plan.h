@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+
+#include "nn/kernels/winograd/winograd.h"
+
+namespace svnet::kernels {
+
+/// Weights of more channel pairs than this are not kept transformed.
+inline constexpr Index kMostTransformed = 128 * 256;
+
+struct WinogradTile {
+  Index image, row, column;
+};
+
+/// How winograd_conv2d cuts its work, and where numbers lie in its scratch memory. It depends on the shape alone.
+struct WinogradPlan {
+  Window window;
+  Index k;
+  bool transformed;
+  Index tiles_down, tiles_across;
+  Index block;  ///< tiles that go through the steps together
+  Index run;    ///< input channels whose weights are transformed together
+
+  WinogradPlan(const Window& w, const WinogradWeights& weights)
+      : window(w),
+        k(weights.k),
+        transformed(weights.transformed),
+        tiles_down((w.oh + 3) / 4),
+        tiles_across((w.ow + 3) / 4),
+        block(even(tiles(), weights.transformed ? 28 : 128)),
+        run(std::min<Index>(w.c, 64)) {}
+
+  Index tiles() const { return window.n * tiles_down * tiles_across; }
+  WinogradTile tile(Index i) const {
+    return {i / (tiles_down * tiles_across), i / tiles_across % tiles_down, i % tiles_across};
+  }
+
+  // Numbers between two points of a tile, and between two panels of channels. An odd number of cache lines, so that the
+  // 36 points of a tile never share a set of the cache.
+  Index input_point(Index count) const { return odd_lines(count); }
+  Index input_group(Index count) const { return 36 * input_point(count); }
+  Index output_point(Index count) const { return odd_lines(count); }
+
+  Index input_size(Index count) const { return window.c / kPanel * input_group(count); }
+  Index output_size(Index count) const { return 36 * output_point(count); }
+  Index worker_scratch() const { return output_size(block) + (transformed ? input_size(block) : 36 * run * kPanel); }
+  Index scratch(int threads) const { return threads * worker_scratch() + (transformed ? 0 : input_size(block)); }
+
+ private:
+  static Index odd_lines(Index count) { return (count | 1) * kPanel; }
+  static Index even(Index count, Index most) {
+    const Index blocks = std::max<Index>((count + most - 1) / most, 1);
+    return (count + blocks - 1) / blocks;
+  }
+};
+
+}  // namespace svnet::kernels

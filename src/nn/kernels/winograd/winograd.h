@@ -1,0 +1,38 @@
+#pragma once
+#include "base/parallel.h"
+#include "nn/kernels/epilogue.h"
+#include "nn/kernels/packed/packed_weights.h"
+#include "nn/kernels/window.h"
+
+namespace svnet::kernels {
+
+// Winograd's F(4×4, 3×3) (Lavin & Gray, 2015): a tile of 4×4 outputs costs 36 products a pair of channels instead of
+// 144.
+
+/// Weights of a 3×3 convolution for winograd_conv2d. Immutable once made.
+struct WinogradWeights {
+  Index c = 0, k = 0;
+  /// Transformed: points [k / 16][36][c][16]. Otherwise taps [k / 16][c][9][16], a quarter of the memory, which are
+  /// transformed while they are used.
+  bool transformed = false;
+  AlignedFloats panels{}, bias{};
+};
+
+/// Whether the window is 3×3 of stride 1 and the channels come in whole panels.
+bool winograd_fits(const Window& window, Index k);
+
+/// From w (3, 3, C, K) and bias (K) or nullptr; C and K multiples of 16.
+WinogradWeights winograd_weights(Index c, Index k, const float* w, const float* bias);
+
+/// What follows the convolution in the same pass: the clamp, then, if asked for, the largest of every 2×2 outputs.
+struct WinogradFinish {
+  Clamp clamp = Clamp::none;
+  bool pool = false;
+};
+
+/// y (N, OH, OW, K), or (N, OH / 2, OW / 2, K) pooled. scratch holds winograd_scratch numbers.
+void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, const WinogradWeights& weights,
+                     const WinogradFinish& finish, float* y, float* scratch);
+Index winograd_scratch(const Window& window, const WinogradWeights& weights, int threads);
+
+}  // namespace svnet::kernels

@@ -1,0 +1,40 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "nn/graph/graph.h"
+#include "nn/graph/parameters.h"
+#include "nn/runtime/step.h"
+
+namespace svnet::runtime {
+
+/// Position of a value in Program::sizes.
+using ValueId = int;
+
+struct ProgramStep {
+  std::string layer;  // the last layer that the step stands for
+  StepPointer step;
+  std::vector<ValueId> inputs;
+  ValueId output;
+};
+
+/// A graph as a list of steps over values. The first values are the graph's inputs, in order.
+struct Program {
+  std::vector<Shape> inputs;  // shapes without the batch
+  Shape output_shape;
+  std::vector<ProgramStep> steps;
+  std::vector<Index> sizes;  // numbers of each value for one sample
+  ValueId output;            // written by exactly one step
+};
+
+/// Which kernels 3×3 convolutions of stride 1 may use; SVNET_CONVOLUTION=direct|winograd forces one, for testing.
+enum class Convolution { automatic, direct, winograd };
+/// Throws Error for another word.
+Convolution convolution_from_environment();
+
+/// Compiles what `output` needs: batch norms folded, and padding, activations, additions, pooling, and the pointwise
+/// half of separable convolutions fused into the convolution beside them wherever nobody else reads what lies between.
+/// Parameters must be f32 (Error otherwise).
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution);
+
+}  // namespace svnet::runtime

@@ -1,0 +1,152 @@
+#include "base/text.h"
+#include "nn/kernels/conv2d/packed_conv2d.h"
+#include "nn/kernels/depthwise/depthwise.h"
+#include "nn/kernels/separable/separable.h"
+#include "nn/kernels/winograd/winograd.h"
+#include "nn/runtime/step.h"
+
+namespace svnet::runtime {
+namespace {
+
+using namespace kernels;
+
+const float* numbers(const Tensor& t) { return t.defined() ? t.data<float>() : nullptr; }
+
+Window with_batch(Window window, Index batch) {
+  window.n = batch;
+  return window;
+}
+
+std::string size_text(const Window& w) { return joined(w.kh, "x", w.kw); }
+
+PackedFinish packed_finish(const ConvolutionFinish& finish, const StepBuffers& b) {
+  return {finish.clamp, finish.residual ? b.inputs[1] : nullptr};
+}
+
+class PackedConvolution : public Step {
+ public:
+  PackedConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish)
+      : window_(window),
+        weights_(packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), numbers(kernel), numbers(bias))),
+        finish_(finish) {}
+
+  void run(const StepBuffers& b) const override {
+    packed_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], weights_, packed_finish(finish_, b), b.output,
+                  b.scratch);
+  }
+  Index scratch(Index batch, int threads) const override {
+    return packed_conv2d_scratch(with_batch(window_, batch), threads);
+  }
+  std::string kernel() const override {
+    return joined(window_.reads_in_place() ? "packed gemm " : "implicit gemm ", size_text(window_));
+  }
+  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.k * weights_.n); }
+  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.k * weights_.n); }
+
+ private:
+  Window window_;
+  PackedWeights weights_;
+  ConvolutionFinish finish_;
+};
+
+class WinogradConvolution : public Step {
+ public:
+  WinogradConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish)
+      : window_(window),
+        weights_(winograd_weights(window.c, kernel.dim(-1), numbers(kernel), numbers(bias))),
+        finish_{finish.clamp, finish.pool} {}
+
+  void run(const StepBuffers& b) const override {
+    winograd_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], weights_, finish_, b.output, b.scratch);
+  }
+  Index scratch(Index batch, int threads) const override {
+    return winograd_scratch(with_batch(window_, batch), weights_, threads);
+  }
+  std::string kernel() const override { return finish_.pool ? "winograd 3x3 + pool 2x2" : "winograd 3x3"; }
+  double flops() const override { return 18.0 * static_cast<double>(window_.positions() * weights_.c * weights_.k); }
+  double weight_bytes() const override {
+    return (weights_.transformed ? 144.0 : 36.0) * static_cast<double>(weights_.c * weights_.k);
+  }
+
+ private:
+  Window window_;
+  WinogradWeights weights_;
+  WinogradFinish finish_;
+};
+
+class Separable : public Step {
+ public:
+  Separable(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
+            const ConvolutionFinish& finish)
+      : window_(window),
+        taps_(depthwise_taps(window.kh, window.kw, window.c, numbers(depthwise.kernel), numbers(depthwise.bias))),
+        weights_(packed_weights(window.c, pointwise.dim(-1), numbers(pointwise), numbers(bias))),
+        finish_(finish) {
+    taps_.relu_input = depthwise.relu_input;
+    taps_.clamp = depthwise.clamp;
+  }
+
+  void run(const StepBuffers& b) const override {
+    separable_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], taps_, weights_, packed_finish(finish_, b),
+                     b.output, b.scratch);
+  }
+  Index scratch(Index batch, int threads) const override {
+    return separable_scratch(with_batch(window_, batch), threads);
+  }
+  std::string kernel() const override { return joined("depthwise ", size_text(window_), " + packed gemm"); }
+  double flops() const override {
+    return 2.0 * static_cast<double>(window_.positions() * window_.c * (window_.kh * window_.kw + weights_.n));
+  }
+  double weight_bytes() const override {
+    return 4.0 * static_cast<double>(window_.c * (window_.kh * window_.kw + weights_.n));
+  }
+
+ private:
+  Window window_;
+  DepthwiseTaps taps_;
+  PackedWeights weights_;
+  ConvolutionFinish finish_;
+};
+
+/// A depthwise convolution that no pointwise one follows at once.
+class Depthwise : public Step {
+ public:
+  Depthwise(const Window& window, const DepthwisePart& part, Index multiplier)
+      : window_(window), part_(part), multiplier_(multiplier) {}
+
+  void run(const StepBuffers& b) const override {
+    depthwise(b.parallel, {with_batch(window_, b.batch), multiplier_}, b.inputs[0], numbers(part_.kernel), b.output,
+              Epilogue<float>{numbers(part_.bias), part_.clamp});
+  }
+  std::string kernel() const override { return joined("depthwise ", size_text(window_)); }
+  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * part_.kernel.size()); }
+  double weight_bytes() const override { return 4.0 * static_cast<double>(part_.kernel.size()); }
+
+ private:
+  Window window_;
+  DepthwisePart part_;
+  Index multiplier_;
+};
+
+}  // namespace
+
+StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
+                             const ConvolutionFinish& finish, bool winograd) {
+  if (winograd) return std::make_unique<WinogradConvolution>(window, kernel, bias, finish);
+  return std::make_unique<PackedConvolution>(window, kernel, bias, finish);
+}
+
+StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish) {
+  return std::make_unique<PackedConvolution>(window_over("dense", 1, 1, 1, kernel.dim(0), {}), kernel, bias, finish);
+}
+
+StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
+                           const Tensor& bias, const ConvolutionFinish& finish) {
+  return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish);
+}
+
+StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier) {
+  return std::make_unique<Depthwise>(window, depthwise, multiplier);
+}
+
+}  // namespace svnet::runtime

@@ -1,0 +1,156 @@
+#include "nn/runtime/inference.h"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+namespace svnet {
+namespace {
+
+runtime::MemoryPlan planned(const runtime::Program& program) {
+  std::vector<runtime::Lifetime> values(program.sizes.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = {program.sizes[i], -1, -1};
+  for (std::size_t i = 0; i < program.steps.size(); ++i) {
+    const auto& step = program.steps[i];
+    auto& written = values[static_cast<std::size_t>(step.output)];
+    written.first = written.last = static_cast<int>(i);
+    for (const auto id : step.inputs) values[static_cast<std::size_t>(id)].last = static_cast<int>(i);
+  }
+  // Inputs and output lie in the caller's memory.
+  for (std::size_t i = 0; i < program.inputs.size(); ++i) values[i].size = 0;
+  values[static_cast<std::size_t>(program.output)].size = 0;
+  return runtime::plan_memory(values);
+}
+
+}  // namespace
+
+/// An arena for the length of one run.
+class Inference::Loan {
+ public:
+  Loan(const Inference& from, Index size) : from_(from) {
+    {
+      std::lock_guard lock(from_.mutex_);
+      if (!from_.free_.empty()) {
+        arena_ = std::move(from_.free_.back());
+        from_.free_.pop_back();
+      }
+    }
+    if (!arena_) {
+      arena_ = std::make_unique<Arena>();
+      std::size_t most = 1;
+      for (const auto& step : from.program_.steps) most = std::max(most, step.inputs.size());
+      arena_->inputs.resize(most);
+    }
+    if (arena_->size < size) {
+      arena_->memory.reset();
+      arena_->memory = aligned_floats(size);
+      std::fill_n(arena_->memory.get(), size, 0.0f);
+      arena_->size = size;
+    }
+  }
+  ~Loan() {
+    std::lock_guard lock(from_.mutex_);
+    try {
+      from_.free_.push_back(std::move(arena_));
+    } catch (const std::bad_alloc&) {
+      // The arena is freed instead of kept.
+    }
+  }
+  Loan(const Loan&) = delete;
+  Loan& operator=(const Loan&) = delete;
+  Arena& operator*() const { return *arena_; }
+
+ private:
+  const Inference& from_;
+  std::unique_ptr<Arena> arena_{};
+};
+
+Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output)
+    : Inference(graph, parameters, output, runtime::convolution_from_environment()) {}
+
+Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution)
+    : program_(runtime::compile(graph, parameters, output, convolution)), memory_(planned(program_)) {}
+
+Index Inference::arena_size(Index batch) const {
+  Index scratch = 0;
+  for (const auto& step : program_.steps)
+    scratch = std::max(scratch, step.step->scratch(batch, Parallel::shared().threads()));
+  return memory_.size * batch + scratch;
+}
+
+void Inference::run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch,
+                         float* output, Arena& arena) const {
+  const auto place = [&](runtime::ValueId id) -> float* {
+    return id == program_.output ? output : arena.memory.get() + memory_.offsets[static_cast<std::size_t>(id)] * batch;
+  };
+  for (std::size_t i = 0; i < step.inputs.size(); ++i) {
+    const auto id = static_cast<std::size_t>(step.inputs[i]);
+    arena.inputs[i] = id < inputs.size() ? inputs[id] : place(step.inputs[i]);
+  }
+  step.step->run({.inputs = {arena.inputs.data(), step.inputs.size()},
+                  .output = place(step.output),
+                  .scratch = arena.memory.get() + memory_.size * batch,
+                  .batch = batch,
+                  .parallel = Parallel::shared()});
+}
+
+void Inference::run(std::span<const float* const> inputs, Index batch, float* output) const {
+  const Loan arena(*this, arena_size(batch));
+  for (const auto& step : program_.steps) run_step(step, inputs, batch, output, *arena);
+}
+
+Tensor Inference::run(const std::vector<Tensor>& inputs) const {
+  check(inputs.size() == program_.inputs.size(), "[runtime] takes ", program_.inputs.size(), " inputs, got ",
+        inputs.size());
+  check(!inputs.empty() && inputs[0].defined() && inputs[0].rank() >= 1, "[runtime] the first input is empty");
+  const Index batch = inputs[0].dim(0);
+  std::vector<const float*> numbers;
+  for (std::size_t i = 0; i < inputs.size(); ++i) {
+    Shape expected = program_.inputs[i];
+    expected.insert(expected.begin(), batch);
+    check(inputs[i].defined() && inputs[i].shape() == expected, "[runtime] input ", i, " is ",
+          inputs[i].defined() ? to_string(inputs[i].shape()) : "empty", ", expected ", to_string(expected));
+    numbers.push_back(inputs[i].data<float>());
+  }
+  Shape shape = program_.output_shape;
+  shape.insert(shape.begin(), batch);
+  Tensor output = Tensor::empty(shape);
+  if (batch > 0) run(numbers, batch, output.data<float>());
+  return output;
+}
+
+std::vector<StepReport> Inference::report(Index batch) const {
+  using Clock = std::chrono::steady_clock;
+  std::vector<Tensor> zeros;
+  std::vector<const float*> inputs;
+  for (Shape shape : program_.inputs) {
+    shape.insert(shape.begin(), batch);
+    zeros.push_back(Tensor::zeros(shape));
+    inputs.push_back(zeros.back().data<float>());
+  }
+  Tensor output = Tensor::empty({batch * element_count(program_.output_shape)});
+  std::vector<StepReport> reports;
+  for (const auto& step : program_.steps) {
+    const auto size = [&](runtime::ValueId id) {
+      return static_cast<double>(program_.sizes[static_cast<std::size_t>(id)]);
+    };
+    double numbers = size(step.output);
+    for (const auto id : step.inputs) numbers += size(id);
+    reports.push_back({.layer = step.layer,
+                       .kernel = step.step->kernel(),
+                       .flops = step.step->flops() * static_cast<double>(batch),
+                       .bytes = 4 * numbers * static_cast<double>(batch) + step.step->weight_bytes(),
+                       .milliseconds = std::numeric_limits<double>::infinity()});
+  }
+  const Loan arena(*this, arena_size(batch));
+  for (int repeat = 0; repeat < 5; ++repeat)
+    for (std::size_t i = 0; i < program_.steps.size(); ++i) {
+      const auto start = Clock::now();
+      run_step(program_.steps[i], inputs, batch, output.data<float>(), *arena);
+      reports[i].milliseconds =
+          std::min(reports[i].milliseconds, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
+    }
+  return reports;
+}
+
+}  // namespace svnet

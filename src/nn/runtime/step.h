@@ -1,0 +1,77 @@
+#pragma once
+#include <memory>
+#include <span>
+#include <string>
+
+#include "base/parallel.h"
+#include "nn/kernels/epilogue.h"
+#include "nn/kernels/window.h"
+#include "nn/tensor.h"
+
+namespace svnet::runtime {
+
+/// What a step reads and writes: batches of images or rows in the arena. All may be read one vector past their end.
+struct StepBuffers {
+  std::span<const float* const> inputs;
+  float* output;
+  float* scratch;  ///< as many numbers as Step::scratch asks for
+  Index batch;
+  Parallel& parallel;
+};
+
+/// One kernel call of a compiled graph, with its weights in the kernel's own layout. Immutable: any number of threads
+/// may run it, each with its own buffers.
+class Step {
+ public:
+  virtual ~Step() = default;
+  virtual void run(const StepBuffers& buffers) const = 0;
+  virtual Index scratch(Index batch, int threads) const {
+    static_cast<void>(batch), static_cast<void>(threads);
+    return 0;
+  }
+  virtual std::string kernel() const = 0;     ///< "winograd 3x3", for people
+  virtual double flops() const { return 0; }  ///< of one sample, as the layer defines them
+  virtual double weight_bytes() const { return 0; }
+};
+
+using StepPointer = std::unique_ptr<const Step>;
+
+/// What convolutions do to their output in the same pass: y = clamp(y + bias + residual), then, if asked for, 2×2
+/// pooling.
+struct ConvolutionFinish {
+  kernels::Clamp clamp = kernels::Clamp::none;
+  bool residual = false;  ///< the step's second input
+  bool pool = false;      ///< Winograd only: the largest of every 2×2
+};
+
+/// Windows are those of a batch of 1. bias may be an empty handle.
+/// Winograd where it fits and `winograd` says so.
+StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
+                             const ConvolutionFinish& finish, bool winograd);
+StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish);
+
+/// The depthwise half of a separable convolution, and what surrounds it.
+struct DepthwisePart {
+  Tensor kernel, bias{};
+  bool relu_input = false;
+  kernels::Clamp clamp = kernels::Clamp::none;
+};
+StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
+                           const Tensor& bias, const ConvolutionFinish& finish);
+StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier);
+
+StepPointer pool_step(const Window& window, bool max);
+/// The sum of the inputs.
+StepPointer add_step(Index size, std::size_t inputs, kernels::Clamp clamp);
+/// y = clamp(x · scale + shift), per channel of the last axis.
+StepPointer scale_shift_step(Index rows, const Tensor& scale, const Tensor& shift, kernels::Clamp clamp);
+StepPointer clamp_step(Index size, kernels::Clamp clamp);
+StepPointer sigmoid_step(Index size);
+StepPointer softmax_step(Index rows, Index classes);
+/// Along the last axis.
+StepPointer concat_step(Index rows, std::vector<Index> widths);
+/// A border of zeros around images (H, W, C).
+StepPointer padding_step(Index h, Index w, Index c, const Padding& padding);
+StepPointer copy_step(Index size);
+
+}  // namespace svnet::runtime

@@ -1,0 +1,201 @@
+#include "nn/runtime/inference.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <thread>
+
+#include "base/random.h"
+#include "nn/graph/run.h"
+#include "nn/numbers.h"
+
+using namespace svnet;
+using namespace svnet::test;
+
+namespace {
+
+double relative_distance(const Tensor& actual, const Tensor& expected) {
+  REQUIRE(actual.shape() == expected.shape());
+  double difference = 0, norm = 0;
+  for (Index i = 0; i < expected.size(); ++i) {
+    const double d = actual.data<float>()[i] - expected.data<float>()[i];
+    difference += d * d;
+    norm += static_cast<double>(expected.data<float>()[i]) * expected.data<float>()[i];
+  }
+  return std::sqrt(difference / norm);
+}
+
+/// Parameters of which no bias, mean or variance is trivial.
+Parameters drawn(const Graph& graph) {
+  Parameters parameters = initial_parameters(graph, 3);
+  std::uint64_t seed = 100;
+  for (const auto& node : graph.nodes())
+    for (const auto& spec : node.parameters)
+      if (spec.shape.size() == 1)
+        parameters.set(node.parameter_name(spec), random_tensor(spec.shape, ++seed, DType::f32, 0.5, 1.5));
+  return parameters;
+}
+
+const Tensor kImages = random_tensor({3, 12, 10, 5}, 1, DType::f32);
+
+/// Every kind of layer, and every way in which one may be fused into another, or must not be.
+Graph all_layers() {
+  Graph g;
+  const Padding same = Padding::same();
+  const NodeId image = g.input("image", {12, 10, 5});
+  NodeId x = g.add("pad", ZeroPadding2dLayer{Padding::of(1, 2, 0, 1)}, {image});
+  x = g.add("conv", Conv2dLayer{.filters = 32, .kh = 3, .kw = 3, .activation = Activation::relu}, {x});
+  const NodeId trunk = x = g.add("winograd", Conv2dLayer{.filters = 32, .kh = 3, .kw = 3, .padding = same}, {x});
+  const NodeId act = g.add("act", ActivationLayer{Activation::relu}, {x});
+  x = g.add("separable", SeparableConv2dLayer{.filters = 32, .kh = 3, .kw = 3, .padding = same}, {act});
+  x = g.add("norm", BatchNormLayer{}, {x});
+  x = g.add("sum", AddLayer{}, {x, trunk});  // two readers of trunk: nothing may be applied to it in place
+  x = g.add("sum_act", ActivationLayer{Activation::relu}, {x});
+  const NodeId before = x = g.add("after_sum", SeparableConv2dLayer{.filters = 24, .kh = 3, .kw = 3}, {x});
+  x = g.add("expand", Conv2dLayer{.filters = 40, .bias = false}, {x});
+  x = g.add("expand_bn", BatchNormLayer{}, {x});
+  x = g.add("expand_act", ActivationLayer{Activation::relu6}, {x});
+  x = g.add("stride_pad", ZeroPadding2dLayer{Padding::of(1, 1, 1, 1)}, {x});
+  x = g.add("depthwise", DepthwiseConv2dLayer{.kh = 3, .kw = 3, .activation = Activation::relu6}, {x});
+  x = g.add("project", Conv2dLayer{.filters = 24}, {x});
+  x = g.add("shortcut", AddLayer{}, {before, x});
+  x = g.add("lonely_depthwise",
+            DepthwiseConv2dLayer{.kh = 2, .kw = 2, .multiplier = 2, .activation = Activation::sigmoid}, {x});
+  x = g.add("doubled", SeparableConv2dLayer{.filters = 32, .kh = 3, .kw = 3, .multiplier = 2, .padding = same}, {x});
+  x = g.add(
+      "free_norm", BatchNormLayer{},
+      {g.add("average", Pool2dLayer{.kind = PoolKind::average, .window = {.kh = 2, .kw = 2, .padding = same}}, {x})});
+  x = g.add("pooled", Conv2dLayer{.filters = 16, .kh = 3, .kw = 3, .padding = same, .activation = Activation::relu},
+            {x});
+  x = g.add("pool", Pool2dLayer{.window = {.kh = 2, .kw = 2, .stride_h = 2, .stride_w = 2}}, {x});
+  const NodeId mean = g.add("mean", GlobalPool2dLayer{.kind = PoolKind::average, .keep_dimensions = true}, {x});
+  const NodeId most = g.add("most", GlobalPool2dLayer{.kind = PoolKind::max}, {x});
+  const NodeId flat = g.add("flat", FlattenLayer{}, {mean});
+  x = g.add("join", ConcatLayer{}, {flat, most, flat});
+  x = g.add("drop", DropoutLayer{.rate = 0.5}, {x});
+  x = g.add("dense", DenseLayer{.units = 9, .activation = Activation::sigmoid}, {x});
+  x = g.add("flat_again", FlattenLayer{}, {g.add("shape", ReshapeLayer{{3, 3}}, {x})});
+  g.add("chances", DenseLayer{.units = 4, .activation = Activation::softmax}, {x});
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("a compiled graph computes what its layers say, whichever layer is the output") {
+  const Graph graph = all_layers();
+  const Parameters parameters = drawn(graph);
+  for (const auto convolution :
+       {runtime::Convolution::automatic, runtime::Convolution::direct, runtime::Convolution::winograd})
+    for (NodeId output = 0; output <= graph.output(); ++output) {
+      INFO("output " << graph.node(output).name << ", convolution " << static_cast<int>(convolution));
+      const Inference compiled(graph, parameters, output, convolution);
+      CHECK(relative_distance(compiled.run({kImages}), infer(graph, parameters, {kImages}, {output})[0]) <= 5e-6);
+    }
+}
+
+TEST_CASE("compiling fuses what has one reader") {
+  const Graph graph = all_layers();
+  const auto program = runtime::compile(graph, drawn(graph), graph.output(), runtime::Convolution::automatic);
+  std::vector<std::string> layers;
+  for (const auto& step : program.steps) layers.push_back(step.layer);
+  CHECK(layers == std::vector<std::string>{"conv",
+                                           "winograd",
+                                           "act",
+                                           "sum_act",
+                                           "after_sum",
+                                           "expand_act",
+                                           "shortcut",
+                                           "lonely_depthwise",
+                                           "lonely_depthwise",
+                                           "doubled",
+                                           "doubled",
+                                           "average",
+                                           "free_norm",
+                                           "pool",
+                                           "mean",
+                                           "most",
+                                           "join",
+                                           "dense",
+                                           "dense",
+                                           "chances",
+                                           "chances"});
+}
+
+TEST_CASE("a sample's bits depend neither on its batch nor on the number of threads nor on what ran before") {
+  const Graph graph = all_layers();
+  const Inference compiled(graph, drawn(graph), graph.find("join"));
+  const Index sample = kImages.size() / kImages.dim(0);
+  const int threads = Parallel::shared().threads();
+  std::vector<Tensor> seen;
+  for (int count : {1, 2, 8}) {
+    Parallel::shared().resize(count);
+    seen.push_back(compiled.run({kImages}));
+    CHECK(same_bits(seen.front(), seen.back()));
+  }
+  Parallel::shared().resize(threads);
+  const Index width = seen[0].dim(1);
+  for (Index i = 0; i < kImages.dim(0); ++i) {
+    Tensor one = Tensor::empty({1, 12, 10, 5});
+    std::copy_n(kImages.data<float>() + i * sample, sample, one.data<float>());
+    const Tensor alone = compiled.run({one});
+    CHECK(std::equal(alone.data<float>(), alone.data<float>() + width, seen[0].data<float>() + i * width));
+  }
+}
+
+TEST_CASE("several threads may run one compiled graph") {
+  const Graph graph = all_layers();
+  const Inference compiled(graph, drawn(graph), graph.output());
+  const Tensor expected = compiled.run({kImages});
+  std::vector<Tensor> results(4);
+  std::vector<std::thread> threads;
+  for (Tensor& result : results)
+    threads.emplace_back([&] {
+      for (int i = 0; i < 5; ++i) result = compiled.run({kImages});
+    });
+  for (auto& thread : threads) thread.join();
+  for (const Tensor& result : results) CHECK(same_bits(result, expected));
+}
+
+TEST_CASE("a compiled graph says what is wrong with its inputs") {
+  const Graph graph = all_layers();
+  const Inference compiled(graph, drawn(graph), graph.output());
+  CHECK_THROWS_WITH(compiled.run(std::vector<Tensor>{}), "[runtime] takes 1 inputs, got 0");
+  CHECK_THROWS_WITH(compiled.run({Tensor::zeros({2, 12, 11, 5})}),
+                    "[runtime] input 0 is 2x12x11x5, expected 2x12x10x5");
+  CHECK_THROWS_WITH(Inference(graph, initial_parameters(graph, 1, DType::f64), graph.output()), Catch::Contains("f32"));
+  ::setenv("SVNET_CONVOLUTION", "fast", 1);
+  CHECK_THROWS_WITH(runtime::convolution_from_environment(),
+                    "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
+  ::unsetenv("SVNET_CONVOLUTION");
+  CHECK(compiled.run({Tensor::zeros({0, 12, 10, 5})}).shape() == Shape{0, 4});
+}
+
+TEST_CASE("a plan's values never share memory while both live") {
+  RandomStream random(4, Stream::weights);
+  std::vector<runtime::Lifetime> values(60);
+  for (auto& value : values) {
+    value.size = static_cast<Index>(random.uniform() * 1000);
+    value.first = static_cast<int>(random.uniform() * 40);
+    value.last = value.first + static_cast<int>(random.uniform() * 6);
+  }
+  const runtime::MemoryPlan plan = runtime::plan_memory(values);
+  Index most = 0;
+  for (int step = 0; step < 50; ++step) {
+    Index live = 0;
+    for (const auto& value : values)
+      if (value.first <= step && step <= value.last) live += (value.size + 15) / 16 * 16;
+    most = std::max(most, live);
+  }
+  CHECK(plan.size >= most);
+  CHECK(plan.size <= 2 * most);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    CHECK(plan.offsets[i] % 16 == 0);
+    CHECK(plan.offsets[i] + values[i].size <= plan.size);
+    for (std::size_t j = 0; j < i; ++j) {
+      const bool together = values[i].first <= values[j].last && values[j].first <= values[i].last;
+      const bool apart =
+          plan.offsets[i] + values[i].size <= plan.offsets[j] || plan.offsets[j] + values[j].size <= plan.offsets[i];
+      if (together && values[i].size > 0 && values[j].size > 0) CHECK(apart);
+    }
+  }
+}

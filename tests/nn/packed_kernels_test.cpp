@@ -1,0 +1,229 @@
+// The kernels of compiled inference against the plain definitions, at odd sizes, on every instruction set.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "base/aligned.h"
+#include "nn/instruction_sets.h"
+#include "nn/kernels/conv2d/conv2d.h"
+#include "nn/kernels/conv2d/packed_conv2d.h"
+#include "nn/kernels/depthwise/depthwise.h"
+#include "nn/kernels/gemm.h"
+#include "nn/kernels/pool/inference_pool.h"
+#include "nn/kernels/pool/pool.h"
+#include "nn/kernels/separable/separable.h"
+#include "nn/kernels/winograd/winograd.h"
+#include "nn/numbers.h"
+
+using namespace svnet;
+using namespace svnet::kernels;
+using namespace svnet::test;
+
+namespace {
+
+AlignedFloats scratch_memory(Index count) {
+  AlignedFloats memory = aligned_floats(count);
+  std::fill_n(memory.get(), count, NAN);  // whoever reads what nobody wrote is found out
+  return memory;
+}
+
+Window window(Index n, Index h, Index w, Index c, Index kernel, Index stride, const Padding& padding) {
+  return window_over("test", n, h, w, c,
+                     {.kh = kernel, .kw = kernel, .stride_h = stride, .stride_w = stride, .padding = padding});
+}
+
+/// Numbers with a whole vector of room behind them, as kernels may expect.
+struct Numbers {
+  Numbers(std::uint32_t seed, Index size) : count(size), memory(aligned_floats(size)) {
+    const Tensor drawn = random_tensor({size}, seed, DType::f32);
+    std::copy_n(drawn.data<float>(), size, memory.get());
+  }
+  const float* get() const { return memory.get(); }
+  Index count;
+  AlignedFloats memory;
+};
+
+double clamped(double y, Clamp clamp) {
+  if (clamp != Clamp::none) y = std::max(y, 0.0);
+  return clamp == Clamp::relu6 ? std::min(y, 6.0) : y;
+}
+
+/// Relative L2 distance of `actual` from clamp(expected + bias + residual).
+double distance(const float* actual, std::vector<double> expected, Index n, const float* bias, const float* residual,
+                Clamp clamp) {
+  double difference = 0, norm = 0;
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    double y = expected[i] + bias[static_cast<Index>(i) % n] + (residual != nullptr ? residual[i] : 0.0f);
+    y = clamped(y, clamp);
+    difference += (actual[i] - y) * (actual[i] - y);
+    norm += y * y;
+  }
+  return difference == 0 ? 0 : std::sqrt(difference / norm);  // clamped numbers may all be 0
+}
+
+std::vector<double> wide(const float* x, Index count) { return {x, x + count}; }
+
+}  // namespace
+
+TEST_CASE("packed gemm multiplies, adds bias and residual, and clamps") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (Index rows : {1, 5, 13, 100})
+      for (Index n : {1, 16, 24, 47})
+        for (Index k : {1, 30, 2100}) {
+          INFO(isa << ": " << rows << "x" << k << " * " << k << "x" << n);
+          const Numbers a(1, rows * k), w(2, k * n), bias(3, n), residual(4, rows * n);
+          std::vector<double> expected(static_cast<std::size_t>(rows * n));
+          gemm_reference<double>({.m = rows, .n = n, .k = k}, wide(a.get(), a.count).data(),
+                                 wide(w.get(), w.count).data(), expected.data());
+          const PackedWeights packed = packed_weights(k, n, w.get(), bias.get());
+          const AlignedFloats c = scratch_memory(rows * n);
+          packed_gemm(parallel, rows, a.get(), packed, {Clamp::relu6, residual.get()}, c.get());
+          CHECK(distance(c.get(), expected, n, bias.get(), residual.get(), Clamp::relu6) <= 2e-6);
+          packed_gemm(parallel, rows, a.get(), packed, {}, c.get());
+          CHECK(distance(c.get(), expected, n, bias.get(), nullptr, Clamp::none) <= 2e-6);
+        }
+  });
+}
+
+TEST_CASE("a row of a packed product does not depend on the rows beside it") {
+  Parallel parallel(2);
+  const Index rows = 45, n = 40, k = 70;
+  const Numbers a(1, rows * k), w(2, k * n);
+  const PackedWeights packed = packed_weights(k, n, w.get(), nullptr);
+  const AlignedFloats whole = scratch_memory(rows * n), one = scratch_memory(n);
+  packed_gemm(parallel, rows, a.get(), packed, {}, whole.get());
+  for (Index row = 0; row < rows; ++row) {
+    packed_gemm(parallel, 1, a.get() + row * k, packed, {}, one.get());
+    CHECK(std::equal(one.get(), one.get() + n, whole.get() + row * n));
+  }
+}
+
+TEST_CASE("direct and Winograd convolutions agree with the definition") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w :
+         {window(2, 9, 7, 3, 3, 1, Padding::same()), window(1, 11, 10, 5, 3, 2, Padding::valid()),
+          window(1, 8, 9, 16, 5, 3, Padding::of(2, 1, 0, 3)), window(2, 6, 5, 16, 1, 2, Padding::same()),
+          window(1, 13, 10, 16, 3, 1, Padding::same()), window(2, 4, 9, 48, 3, 1, Padding::valid())})
+      for (Index k : {16, 20}) {
+        INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", window " << w.kh << ", stride "
+                 << w.stride_h << ", " << k << " filters");
+        const Numbers x(1, w.n * w.h * w.w * w.c), weights(2, w.kh * w.kw * w.c * k), bias(3, k);
+        std::vector<double> expected(static_cast<std::size_t>(w.positions() * k));
+        conv2d_reference<double>({w, k}, wide(x.get(), x.count).data(), wide(weights.get(), weights.count).data(),
+                                 expected.data());
+        const AlignedFloats y = scratch_memory(w.positions() * k);
+        const PackedWeights packed = packed_weights(w.kh * w.kw * w.c, k, weights.get(), bias.get());
+        const AlignedFloats scratch = scratch_memory(packed_conv2d_scratch(w, parallel.threads()));
+        packed_conv2d(parallel, w, x.get(), packed, {Clamp::relu}, y.get(), scratch.get());
+        CHECK(distance(y.get(), expected, k, bias.get(), nullptr, Clamp::relu) <= 1e-6);
+        if (!winograd_fits(w, k)) continue;
+        const WinogradWeights winograd = winograd_weights(w.c, k, weights.get(), bias.get());
+        const AlignedFloats points = scratch_memory(winograd_scratch(w, winograd, parallel.threads()));
+        winograd_conv2d(parallel, w, x.get(), winograd, {Clamp::relu, false}, y.get(), points.get());
+        CHECK(distance(y.get(), expected, k, bias.get(), nullptr, Clamp::relu) <= 5e-6);
+      }
+  });
+}
+
+TEST_CASE("Winograd with many channels takes the way by channels, pools, and gives the same bits for any threads") {
+  for_instruction_sets([&](const std::string& isa) {
+    INFO(isa);
+    const Index c = 192, k = 192;  // more pairs than are kept transformed
+    const Window w = window(3, 10, 11, c, 3, 1, Padding::same());
+    const Numbers x(1, w.n * w.h * w.w * c), weights(2, 9 * c * k), bias(3, k);
+    const WinogradWeights winograd = winograd_weights(c, k, weights.get(), bias.get());
+    REQUIRE_FALSE(winograd.transformed);
+    std::vector<double> expected(static_cast<std::size_t>(w.positions() * k));
+    conv2d_reference<double>({w, k}, wide(x.get(), x.count).data(), wide(weights.get(), weights.count).data(),
+                             expected.data());
+    std::vector<float> first;
+    for (int threads : {1, 2, 5}) {
+      Parallel parallel(threads);
+      const AlignedFloats y = scratch_memory(w.positions() * k);
+      const AlignedFloats scratch = scratch_memory(winograd_scratch(w, winograd, threads));
+      winograd_conv2d(parallel, w, x.get(), winograd, {Clamp::relu, false}, y.get(), scratch.get());
+      CHECK(distance(y.get(), expected, k, bias.get(), nullptr, Clamp::relu) <= 5e-6);
+      if (first.empty()) first.assign(y.get(), y.get() + w.positions() * k);
+      CHECK(std::equal(first.begin(), first.end(), y.get()));
+      const Index oh = w.oh / 2, ow = w.ow / 2;
+      const AlignedFloats pooled = scratch_memory(w.n * oh * ow * k);
+      winograd_conv2d(parallel, w, x.get(), winograd, {Clamp::relu, true}, pooled.get(), scratch.get());
+      bool same = true;
+      for (Index n = 0; n < w.n; ++n)
+        for (Index i = 0; i < oh; ++i)
+          for (Index j = 0; j < ow; ++j)
+            for (Index channel = 0; channel < k; ++channel) {
+              const auto at = [&](Index row, Index column) {
+                return first[static_cast<std::size_t>(((n * w.oh + row) * w.ow + column) * k + channel)];
+              };
+              const float largest = std::max(std::max(at(2 * i, 2 * j), at(2 * i, 2 * j + 1)),
+                                             std::max(at(2 * i + 1, 2 * j), at(2 * i + 1, 2 * j + 1)));
+              same = same && largest == pooled[((n * oh + i) * ow + j) * k + channel];
+            }
+      CHECK(same);
+    }
+  });
+}
+
+TEST_CASE("separable convolutions agree with their two halves") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w :
+         {window(2, 9, 12, 24, 3, 1, Padding::same()), window(1, 10, 11, 40, 3, 2, Padding::of(0, 1, 0, 1)),
+          window(1, 7, 7, 16, 5, 1, Padding::valid()), window(3, 3, 2, 5, 3, 1, Padding::same())})
+      for (bool relu : {false, true}) {
+        const Index k = 19, c = w.c;
+        INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << c << ", stride " << w.stride_h << ", relu "
+                 << relu);
+        const Numbers x(1, w.n * w.h * w.w * c), taps(2, w.kh * w.kw * c), shift(5, c), pointwise(3, c * k), bias(4, k);
+        std::vector<double> input = wide(x.get(), x.count), between(static_cast<std::size_t>(w.positions() * c));
+        if (relu)
+          for (double& v : input) v = std::max(v, 0.0);
+        depthwise_reference<double>(parallel, {w, 1}, input.data(), wide(taps.get(), taps.count).data(),
+                                    between.data());
+        for (std::size_t i = 0; i < between.size(); ++i)
+          between[i] = clamped(between[i] + shift.get()[static_cast<Index>(i) % c], Clamp::relu6);
+        std::vector<double> expected(static_cast<std::size_t>(w.positions() * k));
+        gemm_reference<double>({.m = w.positions(), .n = k, .k = c}, between.data(),
+                               wide(pointwise.get(), pointwise.count).data(), expected.data());
+        DepthwiseTaps depthwise = depthwise_taps(w.kh, w.kw, c, taps.get(), shift.get());
+        depthwise.relu_input = relu;
+        depthwise.clamp = Clamp::relu6;
+        const Numbers residual(6, w.positions() * k);
+        const AlignedFloats y = scratch_memory(w.positions() * k);
+        const AlignedFloats scratch = scratch_memory(separable_scratch(w, parallel.threads()));
+        separable_conv2d(parallel, w, x.get(), depthwise, packed_weights(c, k, pointwise.get(), bias.get()),
+                         {Clamp::relu, residual.get()}, y.get(), scratch.get());
+        CHECK(distance(y.get(), expected, k, bias.get(), residual.get(), Clamp::relu) <= 1e-6);
+      }
+  });
+}
+
+TEST_CASE("pooling for inference gives the numbers of pooling for training") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w : {window(2, 9, 7, 19, 3, 2, Padding::same()), window(1, 8, 8, 16, 2, 2, Padding::valid()),
+                            window(1, 5, 4, 3, 3, 1, Padding::of(2, 2, 2, 2))}) {
+      INFO(isa << ": " << w.h << "x" << w.w << "x" << w.c);
+      Numbers x(1, w.n * w.h * w.w * w.c);
+      x.memory[7] = NAN;
+      const auto count = static_cast<std::size_t>(w.positions() * w.c);
+      std::vector<float> expected(count), actual(count);
+      std::vector<std::int64_t> source(count);
+      const auto same = [&] {
+        for (std::size_t i = 0; i < count; ++i)
+          if (!(expected[i] == Approx(actual[i]).epsilon(1e-6).margin(1e-7) ||
+                (std::isnan(expected[i]) && std::isnan(actual[i]))))
+            return false;
+        return true;
+      };
+      max_pool<float>(parallel, w, x.get(), expected.data(), source.data());
+      max_pool_inference(parallel, w, x.get(), actual.data());
+      CHECK(same());
+      average_pool<float>(parallel, w, x.get(), expected.data());
+      average_pool_inference(parallel, w, x.get(), actual.data());
+      CHECK(same());
+    }
+  });
+}
