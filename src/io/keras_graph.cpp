@@ -36,6 +36,15 @@ std::string snake_case(const std::string& name) {
   return text;
 }
 
+/// Whether Keras made the name by itself, from the layer's class and a counter ("conv2d", "conv2d_7"): such a name says
+/// nothing about the layer's place.
+bool is_automatic_name(const std::string& name, const Layer& layer) {
+  const std::string stem = snake_case(kind(layer));
+  if (!name.starts_with(stem)) return false;
+  const std::string rest = name.substr(stem.size());
+  return rest.empty() || (rest.size() > 1 && rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == rest.npos);
+}
+
 std::vector<FileLayer> legacy_layers(const std::filesystem::path& path) {
   std::vector<FileLayer> layers;
   for (auto& layer : read_keras_weights(path))
@@ -117,8 +126,9 @@ Parameters filled(const std::filesystem::path& path, std::vector<FileLayer> laye
       continue;
     }
     const GraphNode& node = graph.node(order[i]);
-    check(layers[i].name == node.name || !graph.contains(layers[i].name), path.string(), ": layer ", i + 1, " is '",
-          layers[i].name, "' where the model has '", node.name,
+    const std::string& name = layers[i].name;
+    check(name == node.name || is_automatic_name(name, node.layer) || !graph.contains(name), path.string(), ": layer ",
+          i + 1, " is '", name, "' where the model has '", node.name,
           "'; the layers of the file are not in the order of the model");
     fill(path, i, node, layers[i], parameters);
     made.loaded.push_back(node.name);

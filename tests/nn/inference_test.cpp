@@ -100,7 +100,6 @@ TEST_CASE("compiling fuses what has one reader") {
   for (const auto& step : program.steps) layers.push_back(step.layer);
   CHECK(layers == std::vector<std::string>{"conv",
                                            "winograd",
-                                           "act",
                                            "sum_act",
                                            "after_sum",
                                            "expand_act",
