@@ -20,7 +20,7 @@ void head_step(benchmark::State& state) {
   for (auto _ : state) {
     const TrainingContext context{.seed = 1, .step = static_cast<std::uint64_t>(optimizer->steps)};
     const Tensor score = train(graph, parameters, {features, angles}, {graph.output()}, context)[0];
-    autograd::GradientMap gradients;
+    autograd::GradientMap gradients(autograd::GradientMap::Products::keep);
     autograd::backward(ops::mean_squared_error(score, targets), gradients);
     optimizer->step(gradients, 1e-3);
   }

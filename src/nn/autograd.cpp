@@ -82,11 +82,33 @@ Tensor product(const Tensor& x, const Tensor& dy) {
 
 void Sink::add_product(const Node& parameter, const Tensor& x, const Tensor& dy) { add(parameter, product(x, dy)); }
 
-void GradientMap::add(const Node& parameter, Tensor gradient) { add_to(gradients_[&parameter], std::move(gradient)); }
+void GradientMap::add(const Node& parameter, Tensor gradient) {
+  Entry& entry = gradients_[&parameter];
+  if (entry.product.x.defined()) {
+    entry.sum = product(entry.product.x, entry.product.dy);
+    entry.product = {};
+  }
+  add_to(entry.sum, std::move(gradient));
+}
+
+void GradientMap::add_product(const Node& parameter, const Tensor& x, const Tensor& dy) {
+  Entry& entry = gradients_[&parameter];
+  if (products_ == Products::keep && !entry.sum.defined() && !entry.product.x.defined())
+    entry.product = {x, dy};
+  else
+    add(parameter, product(x, dy));
+}
 
 Tensor GradientMap::of(const Tensor& parameter) const {
   const auto found = gradients_.find(parameter.node().get());
-  return found == gradients_.end() ? Tensor{} : found->second;
+  if (found == gradients_.end()) return {};
+  const Entry& entry = found->second;
+  return entry.product.x.defined() ? product(entry.product.x, entry.product.dy) : entry.sum;
+}
+
+const GradientMap::Product* GradientMap::product_of(const Tensor& parameter) const {
+  const auto found = gradients_.find(parameter.node().get());
+  return found != gradients_.end() && found->second.product.x.defined() ? &found->second.product : nullptr;
 }
 
 /// One run of the tape: the nodes reached so far that wait for their turn, and their gradients.

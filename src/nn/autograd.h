@@ -54,13 +54,28 @@ class Sink {
 /// The usual sink: the sum of each parameter's contributions.
 class GradientMap : public Sink {
  public:
+  /// Products xᵀ·dy that are kept unformed, so that an optimizer may form them tile by tile while it uses them.
+  struct Product {
+    Tensor x, dy;
+  };
+  enum class Products { form, keep };
+  explicit GradientMap(Products products = Products::form) : products_(products) {}
+
   void add(const Node& parameter, Tensor gradient) override;
-  /// Empty handle where the parameter received nothing.
+  void add_product(const Node& parameter, const Tensor& x, const Tensor& dy) override;
+  /// Empty handle where the parameter received nothing. A kept product is formed here, each time.
   Tensor of(const Tensor& parameter) const;
+  /// Whether all that the parameter received is one product that was kept; then that product, else nullptr.
+  const Product* product_of(const Tensor& parameter) const;
   void clear() { gradients_.clear(); }
 
  private:
-  std::map<const Node*, Tensor> gradients_;
+  struct Entry {
+    Tensor sum{};
+    Product product{};  // where sum is empty
+  };
+  Products products_;
+  std::map<const Node*, Entry> gradients_;
 };
 
 /// What a closure writes to: input `i` of the node that is being visited.

@@ -5,10 +5,12 @@
 #include <new>
 #include <vector>
 
+#include "base/aligned.h"
+
 namespace svnet {
 namespace {
 
-constexpr std::align_val_t kAlignment{64};
+constexpr std::align_val_t kAlign{kAlignment};
 constexpr std::size_t kSmallest = std::size_t{64} << 10;
 #ifdef __SANITIZE_ADDRESS__
 constexpr std::size_t kMostKept = 0;  // a use after free must be seen
@@ -46,7 +48,7 @@ class FreeBlocks {
         }
       } catch (...) {  // no memory for the list: then the block is not kept
       }
-    ::operator delete(block, kAlignment);
+    ::operator delete(block, kAlign);
   }
 
  private:
@@ -60,7 +62,10 @@ class FreeBlocks {
 std::shared_ptr<void> allocate_storage(std::size_t bytes) {
   const std::size_t size = bytes + 64;
   void* block = FreeBlocks::instance().take(size);
-  if (block == nullptr) block = ::operator new(size, kAlignment);
+  if (block == nullptr) {
+    block = ::operator new(size, kAlign);
+    advise_huge_pages(block, size);
+  }
   return {block, [size](void* p) { FreeBlocks::instance().give(p, size); }};
 }
 

@@ -1,9 +1,9 @@
 #include "train/trainer.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
@@ -27,16 +27,31 @@ std::vector<std::int32_t> shuffled(Index count, std::uint64_t seed, Index epoch)
   return order;
 }
 
-bool all_finite(const Tensor& x) {
-  std::atomic<bool> finite{true};
-  Parallel::shared().for_chunks(x.defined() ? x.size() : 0, 1 << 16, [&](Index begin, Index end, int) {
-    bool here = true;
-    for (const float value :
-         x.values<float>().subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)))
-      here = here && std::isfinite(value);
-    if (!here) finite = false;
+/// The largest absolute value; infinite where a number is not finite.
+float largest(const Tensor& x) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::vector<float> found(static_cast<std::size_t>(Parallel::shared().threads()), 0.0f);
+  const auto numbers = x.defined() ? x.values<float>() : std::span<const float>{};
+  Parallel::shared().for_chunks(static_cast<Index>(numbers.size()), 1 << 16, [&](Index begin, Index end, int worker) {
+    float most = 0;
+    bool finite = true;
+    for (Index i = begin; i < end; ++i) {
+      const float value = std::abs(numbers[static_cast<std::size_t>(i)]);
+      finite = finite && value < kInfinity;  // NaN is not less
+      most = value > most ? value : most;
+    }
+    float& here = found[static_cast<std::size_t>(worker)];
+    here = std::max(here, finite ? most : kInfinity);
   });
-  return finite;
+  return *std::max_element(found.begin(), found.end());
+}
+
+/// Whether every number of the gradient is finite. A product is known to be so by a bound, without being formed.
+bool is_finite(const autograd::GradientMap& gradients, const Tensor& parameter) {
+  if (const auto* product = gradients.product_of(parameter))
+    return static_cast<double>(largest(product->x)) * largest(product->dy) * static_cast<double>(product->x.dim(0)) <
+           std::numeric_limits<float>::max();
+  return std::isfinite(largest(gradients.of(parameter)));
 }
 
 /// Where a batch ends: a last batch of a single example joins the batch before it.
@@ -88,10 +103,10 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
   const Tensor loss = ops::mean_squared_error(score, batch.targets);
   check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
         "; a smaller learning rate may help");
-  autograd::GradientMap gradients;
+  autograd::GradientMap gradients(autograd::GradientMap::Products::keep);
   autograd::backward(loss, gradients);
   for (const Tensor& parameter : trainable(graph_, parameters))
-    check(all_finite(gradients.of(parameter)), "[training] a gradient is not finite at step ", optimizer.steps,
+    check(is_finite(gradients, parameter), "[training] a gradient is not finite at step ", optimizer.steps,
           "; a smaller learning rate may help");
   optimizer.step(gradients, options_.schedule.at(optimizer.steps));
   return loss.item();

@@ -217,3 +217,21 @@ TEST_CASE("a dense layer's weight gradient reaches the sink as x and dy") {
     CHECK(sink.product.empty());
   }
 }
+
+TEST_CASE("a map that keeps products forms them when it is asked, or when more arrives") {
+  const Tensor x = random_tensor({4, 3}, 1), w = random_tensor({3, 5}, 2).as_parameter();
+  const Tensor seed = random_tensor({4, 5}, 3);
+  const auto run = [&](GradientMap& gradients, int times) {
+    Tensor y = ops::dense(x, w);
+    for (int i = 1; i < times; ++i) y = ops::add({y, ops::dense(x, w)});
+    autograd::backward(y, gradients, seed);
+  };
+  for (int times : {1, 2}) {
+    GradientMap formed, kept(GradientMap::Products::keep);
+    run(formed, times);
+    run(kept, times);
+    CHECK((kept.product_of(w) != nullptr) == (times == 1));
+    CHECK(formed.product_of(w) == nullptr);
+    CHECK(same_bits(kept.of(w), formed.of(w)));
+  }
+}

@@ -8,6 +8,7 @@
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
 #include "nn/kernels/gemm.h"
+#include "nn/kernels/packed/streamed_gemm.h"
 #include "nn/kernels/pool/inference_pool.h"
 #include "nn/kernels/pool/pool.h"
 #include "nn/kernels/separable/separable.h"
@@ -81,6 +82,25 @@ TEST_CASE("packed gemm multiplies, adds bias and residual, and clamps") {
           CHECK(distance(c.get(), expected, n, bias.get(), residual.get(), Clamp::relu6) <= 2e-6);
           packed_gemm(parallel, rows, a.get(), packed, {}, c.get());
           CHECK(distance(c.get(), expected, n, bias.get(), nullptr, Clamp::none) <= 2e-6);
+        }
+  });
+}
+
+TEST_CASE("streamed gemm multiplies few rows by a large matrix") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (Index m : {1, 7, 32})
+      for (Index n : {1, 40, 130, 256})
+        for (Index k : {3, 128, 300}) {
+          INFO(isa << ": " << m << "x" << k << " * " << k << "x" << n);
+          const Numbers a(1, m * k), w(2, k * n), zeros(3, n);
+          std::fill_n(zeros.memory.get(), n, 0.0f);
+          std::vector<double> expected(static_cast<std::size_t>(m * n));
+          gemm_reference<double>({.m = m, .n = n, .k = k}, wide(a.get(), a.count).data(), wide(w.get(), w.count).data(),
+                                 expected.data());
+          const AlignedFloats c = scratch_memory(m * n);
+          streamed_gemm(parallel, {m, n, k}, a.get(), w.get(), c.get());
+          CHECK(distance(c.get(), expected, n, zeros.get(), nullptr, Clamp::none) <= 2e-6);
         }
   });
 }

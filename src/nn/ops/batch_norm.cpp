@@ -81,12 +81,14 @@ Tensor input_gradient(const Tensor& x, const Tensor& dy, const std::vector<T>& s
                       const std::vector<T>& slope) {
   const Index channels = x.dim(-1);
   Tensor dx = Tensor::empty(x.shape(), x.dtype());
+  const T *values = x.data<T>(), *from = dy.data<T>();
+  T* to = dx.data<T>();
   pool().for_chunks(x.size() / channels, 64, [&](Index begin, Index end, int) {
     for (Index row = begin; row < end; ++row)
       for (Index c = 0; c < channels; ++c) {
         const auto j = static_cast<std::size_t>(c);
         const Index i = row * channels + c;
-        dx.data<T>()[i] = scale[j] * (dy.data<T>()[i] - offset[j] - slope[j] * x.data<T>()[i]);
+        to[i] = scale[j] * (from[i] - offset[j] - slope[j] * values[i]);
       }
   });
   return dx;

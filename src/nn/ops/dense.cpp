@@ -3,9 +3,13 @@
 #include "nn/autograd.h"
 #include "nn/kernels/batch_norm/batch_norm.h"
 #include "nn/kernels/gemm.h"
+#include "nn/kernels/packed/streamed_gemm.h"
 #include "nn/ops/checks.h"
 
 namespace svnet::ops {
+namespace {
+constexpr Index kFewRows = 64;
+}
 
 Tensor dense(const Tensor& x, const Tensor& w) {
   check_operands("dense", {x, w});
@@ -15,6 +19,9 @@ Tensor dense(const Tensor& x, const Tensor& w) {
   const Index m = x.dim(0), c = x.dim(1), k = w.dim(1);
   Tensor y = Tensor::empty({m, k}, x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
+    // Few rows use each weight seldom: what counts is how fast the weights come from memory.
+    if constexpr (std::is_same_v<T, float>)
+      if (m <= kFewRows) return kernels::streamed_gemm(pool(), {m, k, c}, x.data<T>(), w.data<T>(), y.data<T>());
     kernels::gemm(pool(), {.m = m, .n = k, .k = c}, x.data<T>(), w.data<T>(), y.data<T>());
   });
   return autograd::record(y, {x, w}, [=, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "nn/kernels/adam/adam_product.h"
 #include "nn/optim/optimizer.h"
 
 namespace svnet {
@@ -26,6 +27,12 @@ class Adam : public Optimizer {
         .beta2 = options_.beta2,
         .epsilon = options_.epsilon};
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
+      if (const auto* p = gradients.product_of(parameters_[i]); p != nullptr && p->x.dtype() == DType::f32) {
+        kernels::adam_product(Parallel::shared(), step, {p->x.dim(0), p->x.dim(1), p->dy.dim(1)}, p->x.data<float>(),
+                              p->dy.data<float>(), parameters_[i].data<float>(), first_[i].data<float>(),
+                              second_[i].data<float>());
+        continue;
+      }
       const Tensor gradient = gradients.of(parameters_[i]);
       if (!gradient.defined()) continue;
       with_dtype(gradient.dtype(), [&]<class T>() {

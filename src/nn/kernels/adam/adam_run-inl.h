@@ -1,0 +1,48 @@
+#if defined(SVNET_ADAM_RUN_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVNET_ADAM_RUN_INL_H_
+#undef SVNET_ADAM_RUN_INL_H_
+#else
+#define SVNET_ADAM_RUN_INL_H_
+#endif
+
+#include <cmath>
+
+#include <hwy/highway.h>
+
+#include "nn/kernels/adam/adam.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svnet::kernels {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// No fused multiply-add: every instruction set gives the bits of the reference.
+HWY_INLINE void adam_run(const AdamStep& step, Index count, const float* HWY_RESTRICT gradient,
+                         float* HWY_RESTRICT parameter, float* HWY_RESTRICT m, float* HWY_RESTRICT v) {
+  const hn::ScalableTag<float> d;
+  const Index lanes = static_cast<Index>(hn::Lanes(d));
+  const auto keep1 = static_cast<float>(1 - step.beta1), keep2 = static_cast<float>(1 - step.beta2);
+  const auto rate = static_cast<float>(step.rate), epsilon = static_cast<float>(step.epsilon);
+  Index i = 0;
+  for (; i + lanes <= count; i += lanes) {
+    const auto g = hn::LoadU(d, gradient + i);
+    auto first = hn::LoadU(d, m + i), second = hn::LoadU(d, v + i);
+    first = hn::Add(first, hn::Mul(hn::Sub(g, first), hn::Set(d, keep1)));
+    second = hn::Add(second, hn::Mul(hn::Sub(hn::Mul(g, g), second), hn::Set(d, keep2)));
+    hn::StoreU(first, d, m + i);
+    hn::StoreU(second, d, v + i);
+    const auto change = hn::Div(hn::Mul(hn::Set(d, rate), first), hn::Add(hn::Sqrt(second), hn::Set(d, epsilon)));
+    hn::StoreU(hn::Sub(hn::LoadU(d, parameter + i), change), d, parameter + i);
+  }
+  for (; i < count; ++i) {
+    m[i] += (gradient[i] - m[i]) * keep1;
+    v[i] += (gradient[i] * gradient[i] - v[i]) * keep2;
+    parameter[i] -= rate * m[i] / (std::sqrt(v[i]) + epsilon);
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace svnet::kernels
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,82 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nn/kernels/packed/streamed_gemm.cpp"
+#include "nn/kernels/packed/streamed_gemm.h"
+
+#include <algorithm>
+
+#include <hwy/cache_control.h>
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "base/aligned.h"
+#include "nn/kernels/packed/micro_kernel-inl.h"
+
+#ifndef SVNET_STREAMED_BLOCK
+#define SVNET_STREAMED_BLOCK
+namespace svnet::kernels {
+constexpr Index kDepth = 128, kColumns = 128;  // of a block: 64 KiB
+}
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace svnet::kernels {
+namespace HWY_NAMESPACE {
+
+/// Rows [k0, k1) and the columns of the block from `column` on, as panels [column / 16][k1 - k0][16], zero-filled.
+HWY_INLINE void lay_out(const StreamedShape& s, const float* w, Index k0, Index k1, Index column, Index columns,
+                        float* block) {
+  const Index all = panels(columns), whole = columns / kPanel;
+  for (Index i = k0; i < k1; ++i) {
+    const float* from = w + i * s.n + column;
+    float* to = block + (i - k0) * kPanel;
+    for (Index p = 0; p < whole; ++p) std::copy_n(from + p * kPanel, kPanel, to + p * (k1 - k0) * kPanel);
+    if (whole == all) continue;
+    std::fill_n(to + whole * (k1 - k0) * kPanel, kPanel, 0.0f);
+    std::copy_n(from + whole * kPanel, columns - whole * kPanel, to + whole * (k1 - k0) * kPanel);
+  }
+}
+
+/// The columns [column, column + kColumns) of c; sums (m, kColumns) and block are scratch.
+void streamed_columns(const StreamedShape& s, Index column, const float* a, const float* w, float* c, float* block,
+                      float* sums) {
+  const Index columns = HWY_MIN(kColumns, s.n - column), all = panels(columns);
+  const Index tiles = all * ((s.m + kTileRows - 1) / kTileRows);
+  for (Index k0 = 0; k0 < s.k; k0 += kDepth) {
+    const Index k1 = HWY_MIN(k0 + kDepth, s.k), next_end = HWY_MIN(k1 + kDepth, s.k);
+    lay_out(s, w, k0, k1, column, columns, block);
+    // The next block is asked for a few rows at a time, between the products.
+    const Index rows_each = (kDepth + tiles - 1) / tiles;
+    Index next = k1;
+    for (Index p = 0; p < all; ++p)
+      for (Index row = 0; row < s.m; row += kTileRows) {
+        for (const Index stop = HWY_MIN(next + rows_each, next_end); next < stop; ++next)
+          for (Index i = 0; i < columns; i += kPanel) hwy::Prefetch(w + next * s.n + column + i);
+        const Index height = HWY_MIN(Index{kTileRows}, s.m - row);
+        multiply_panel(height, {a + row * s.k + k0, s.k, kPanel}, k1 - k0, block + p * (k1 - k0) * kPanel,
+                       {sums + row * kColumns + p * kPanel, kColumns, k0 > 0});
+      }
+  }
+  for (Index row = 0; row < s.m; ++row) std::copy_n(sums + row * kColumns, columns, c + row * s.n + column);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace svnet::kernels
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace svnet::kernels {
+
+HWY_EXPORT(streamed_columns);
+
+void streamed_gemm(Parallel& parallel, const StreamedShape& shape, const float* a, const float* w, float* c) {
+  if (shape.m == 0) return;
+  const Index per_worker = kDepth * kColumns + shape.m * kColumns;
+  const AlignedFloats scratch = aligned_floats(parallel.threads() * per_worker);
+  parallel.for_chunks(shape.n, kColumns, [&](Index begin, Index, int worker) {
+    float* block = scratch.get() + worker * per_worker;
+    HWY_DYNAMIC_DISPATCH(streamed_columns)(shape, begin, a, w, c, block, block + kDepth * kColumns);
+  });
+}
+
+}  // namespace svnet::kernels
+#endif
