@@ -186,6 +186,39 @@ TEST_CASE("Winograd with many channels takes the way by channels, pools, and giv
   });
 }
 
+TEST_CASE("Winograd's gradients agree with the definition") {
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w :
+         {window(2, 9, 7, 16, 3, 1, Padding::same()), window(1, 12, 10, 48, 3, 1, Padding::valid()),
+          window(1, 5, 6, 32, 3, 1, Padding::of(2, 0, 1, 3)), window(5, 29, 31, 16, 3, 1, Padding::same())}) {
+      const Index k = 32, c = w.c;
+      INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << c);
+      const Numbers x(1, w.n * w.h * w.w * c), weights(2, 9 * c * k), dy(3, w.positions() * k), zeros(4, c + k);
+      std::fill_n(zeros.memory.get(), c + k, 0.0f);
+      std::vector<double> dx(static_cast<std::size_t>(x.count)), dw(static_cast<std::size_t>(weights.count));
+      conv2d_input_gradient_reference<double>({w, k}, wide(dy.get(), dy.count).data(),
+                                              wide(weights.get(), weights.count).data(), dx.data());
+      conv2d_weight_gradient_reference<double>({w, k}, wide(x.get(), x.count).data(), wide(dy.get(), dy.count).data(),
+                                               dw.data());
+      std::vector<float> first;
+      for (int threads : {1, 2, 5}) {
+        Parallel parallel(threads);
+        const Window flipped = winograd_input_gradient_window(w, k);
+        const WinogradWeights flipped_weights = winograd_flipped_weights(c, k, weights.get());
+        const AlignedFloats found_dx = scratch_memory(x.count), found_dw = scratch_memory(weights.count);
+        const AlignedFloats scratch = scratch_memory(winograd_scratch(flipped, flipped_weights, threads));
+        winograd_conv2d(parallel, flipped, dy.get(), flipped_weights, {}, found_dx.get(), scratch.get());
+        CHECK(distance(found_dx.get(), dx, c, zeros.get(), nullptr, Clamp::none) <= 1e-5);
+        const AlignedFloats points = scratch_memory(winograd_weight_gradient_scratch(w, k));
+        winograd_weight_gradient(parallel, w, k, x.get(), dy.get(), found_dw.get(), points.get());
+        CHECK(distance(found_dw.get(), dw, k, zeros.get(), nullptr, Clamp::none) <= 1e-5);
+        if (first.empty()) first.assign(found_dw.get(), found_dw.get() + weights.count);
+        CHECK(std::equal(first.begin(), first.end(), found_dw.get()));
+      }
+    }
+  });
+}
+
 TEST_CASE("separable convolutions agree with their two halves") {
   Parallel parallel(2);
   for_instruction_sets([&](const std::string& isa) {

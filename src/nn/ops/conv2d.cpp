@@ -3,6 +3,7 @@
 #include "nn/autograd.h"
 #include "nn/kernels/conv2d/conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
+#include "nn/kernels/winograd/winograd.h"
 #include "nn/ops/checks.h"
 
 namespace svnet::ops {
@@ -51,22 +52,56 @@ Tensor depthwise_conv2d_inference(const Tensor& x, const Tensor& w, const ConvOp
   return y;
 }
 
+namespace {
+
+/// The three passes of a 3×3 convolution of stride 1 by Winograd, in f32.
+bool by_winograd(const kernels::Conv2dShape& s, DType dtype) {
+  return dtype == DType::f32 && s.window.n > 0 && kernels::winograd_fits(s.window, s.k);
+}
+
+/// Scratch memory comes from where tensors' does, which keeps freed blocks.
+Tensor scratch(Index count) { return Tensor::empty({count}); }
+
+Tensor winograd_forward(const Window& window, const Tensor& x, const kernels::WinogradWeights& weights) {
+  Tensor y = Tensor::empty({window.n, window.oh, window.ow, weights.k});
+  Tensor memory = scratch(kernels::winograd_scratch(window, weights, pool().threads()));
+  kernels::winograd_conv2d(pool(), window, x.data<float>(), weights, {}, y.data<float>(), memory.data<float>());
+  return y;
+}
+
+Tensor input_gradient(const kernels::Conv2dShape& s, const Tensor& dy, const Tensor& w) {
+  if (by_winograd(s, dy.dtype()))
+    return winograd_forward(kernels::winograd_input_gradient_window(s.window, s.k), dy,
+                            kernels::winograd_flipped_weights(s.window.c, s.k, w.data<float>()));
+  Tensor dx = Tensor::empty({s.window.n, s.window.h, s.window.w, s.window.c}, dy.dtype());
+  with_dtype(dy.dtype(),
+             [&]<class T>() { kernels::conv2d_input_gradient(pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>()); });
+  return dx;
+}
+
+Tensor weight_gradient(const kernels::Conv2dShape& s, const Tensor& x, const Tensor& dy) {
+  Tensor dw = Tensor::empty({s.window.kh, s.window.kw, s.window.c, s.k}, dy.dtype());
+  if (by_winograd(s, dy.dtype())) {
+    Tensor memory = scratch(kernels::winograd_weight_gradient_scratch(s.window, s.k));
+    kernels::winograd_weight_gradient(pool(), s.window, s.k, x.data<float>(), dy.data<float>(), dw.data<float>(),
+                                      memory.data<float>());
+    return dw;
+  }
+  with_dtype(dy.dtype(),
+             [&]<class T>() { kernels::conv2d_weight_gradient(pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>()); });
+  return dw;
+}
+
+}  // namespace
+
 Tensor conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
   const kernels::Conv2dShape s{.window = window("conv2d", x, w, options), .k = w.dim(3)};
-  Tensor y = conv2d_inference(x, w, options, {});
+  Tensor y = by_winograd(s, x.dtype())
+                 ? winograd_forward(s.window, x, kernels::winograd_weights(s.window.c, s.k, w.data<float>(), nullptr))
+                 : conv2d_inference(x, w, options, {});
   return autograd::record(y, {x, w}, [s, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
-    with_dtype(dy.dtype(), [&]<class T>() {
-      if (g.wants(0)) {
-        Tensor dx = Tensor::empty(x.shape(), x.dtype());
-        kernels::conv2d_input_gradient(pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>());
-        g.add(0, dx);
-      }
-      if (g.wants(1)) {
-        Tensor dw = Tensor::empty(w.shape(), w.dtype());
-        kernels::conv2d_weight_gradient(pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>());
-        g.add(1, dw);
-      }
-    });
+    if (g.wants(0)) g.add(0, input_gradient(s, dy, w));
+    if (g.wants(1)) g.add(1, weight_gradient(s, x, dy));
   });
 }
 

@@ -21,13 +21,19 @@ struct WinogradPlan {
   Index block;  ///< tiles that go through the steps together
   Index run;    ///< input channels whose weights are transformed together
 
+  enum class Use { by_tiles, by_channels, weight_gradient };
+
   WinogradPlan(const Window& w, const WinogradWeights& weights)
+      : WinogradPlan(w, weights.k, weights.transformed ? Use::by_tiles : Use::by_channels) {}
+  WinogradPlan(const Window& w, Index channels, Use use)
       : window(w),
-        k(weights.k),
-        transformed(weights.transformed),
+        k(channels),
+        transformed(use == Use::by_tiles),
         tiles_down((w.oh + 3) / 4),
         tiles_across((w.ow + 3) / 4),
-        block(even(tiles(), weights.transformed ? 28 : 128)),
+        block(even(tiles(), use == Use::by_tiles      ? 28
+                            : use == Use::by_channels ? 128
+                                                      : 256)),
         run(std::min<Index>(w.c, 64)) {}
 
   Index tiles() const { return window.n * tiles_down * tiles_across; }

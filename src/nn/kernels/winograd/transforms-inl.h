@@ -55,6 +55,29 @@ HWY_INLINE Four output_row(V m0, V m1, V m2, V m3, V m4, V m5) {
           hn::MulAdd(four, far_sum, near_sum), hn::Add(hn::MulAdd(eight, far_difference, near_difference), m5)};
 }
 
+/// A dy: four output gradients to six points.
+HWY_INLINE Six gradient_row(V y0, V y1, V y2, V y3) {
+  const PanelTag d;
+  const auto two = hn::Set(d, 2.0f), four = hn::Set(d, 4.0f);
+  const V even = hn::Add(y0, y2), odd = hn::Add(y1, y3);
+  const V far_even = hn::MulAdd(four, y2, y0), far_odd = hn::Mul(two, hn::MulAdd(four, y3, y1));
+  return {y0, hn::Add(even, odd), hn::Sub(even, odd), hn::Add(far_even, far_odd), hn::Sub(far_even, far_odd), y3};
+}
+
+struct Three {
+  V v0, v1, v2;
+};
+
+/// Gᵀ u: six points to the gradients of three taps.
+HWY_INLINE Three tap_row(V u0, V u1, V u2, V u3, V u4, V u5) {
+  const PanelTag d;
+  const auto sixth = hn::Set(d, 1.0f / 6), quarter = hn::Set(d, 0.25f);
+  const V near_sum = hn::Mul(sixth, hn::Add(u1, u2)), near_difference = hn::Mul(sixth, hn::Sub(u2, u1));
+  const V far_sum = hn::Mul(sixth, hn::Add(u3, u4)), far_difference = hn::Mul(sixth, hn::Sub(u3, u4));
+  return {hn::MulAdd(quarter, hn::Add(u0, far_sum), hn::Neg(near_sum)),
+          hn::MulAdd(hn::Set(d, 0.5f), far_difference, near_difference), hn::Add(hn::Sub(far_sum, near_sum), u5)};
+}
+
 /// One tile's 6×6 inputs (stride `row` between rows, `column` between columns) to 36 points, `point` apart.
 HWY_INLINE void transform_input_vector(const float* x, Index row, Index column, float* to, Index point) {
   const PanelTag d;
@@ -96,6 +119,42 @@ HWY_INLINE void transform_weight_vector(const float* w, Index tap, float* to, In
     hn::Store(r.v5, d, p + 30 * point);
   };
   down(0, &Six::v0), down(1, &Six::v1), down(2, &Six::v2), down(3, &Six::v3), down(4, &Six::v4), down(5, &Six::v5);
+}
+
+/// One tile's 4×4 output gradients, [4][4], to 36 points, `point` apart.
+HWY_INLINE void transform_gradient_vector(const V (&y)[4][4], float* to, Index point) {
+  const PanelTag d;
+  Six t[4];
+  for (int i = 0; i < 4; ++i) t[i] = gradient_row(y[i][0], y[i][1], y[i][2], y[i][3]);
+  const auto down = [&](int j, V Six::*m) HWY_ATTR {
+    const Six r = gradient_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m);
+    float* p = to + j * point;
+    hn::Store(r.v0, d, p);
+    hn::Store(r.v1, d, p + 6 * point);
+    hn::Store(r.v2, d, p + 12 * point);
+    hn::Store(r.v3, d, p + 18 * point);
+    hn::Store(r.v4, d, p + 24 * point);
+    hn::Store(r.v5, d, p + 30 * point);
+  };
+  down(0, &Six::v0), down(1, &Six::v1), down(2, &Six::v2), down(3, &Six::v3), down(4, &Six::v4), down(5, &Six::v5);
+}
+
+/// 36 points, `point` apart, to the gradients of nine taps, `tap` apart.
+HWY_INLINE void transform_tap_vector(const float* u, Index point, float* to, Index tap) {
+  const PanelTag d;
+  Three t[6];
+  for (int i = 0; i < 6; ++i) {
+    const float* from = u + 6 * i * point;
+    t[i] = tap_row(hn::Load(d, from), hn::Load(d, from + point), hn::Load(d, from + 2 * point),
+                   hn::Load(d, from + 3 * point), hn::Load(d, from + 4 * point), hn::Load(d, from + 5 * point));
+  }
+  const auto down = [&](int j, V Three::*m) HWY_ATTR {
+    const Three r = tap_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m, t[4].*m, t[5].*m);
+    hn::StoreU(r.v0, d, to + j * tap);
+    hn::StoreU(r.v1, d, to + (3 + j) * tap);
+    hn::StoreU(r.v2, d, to + (6 + j) * tap);
+  };
+  down(0, &Three::v0), down(1, &Three::v1), down(2, &Three::v2);
 }
 
 /// 36 points, `point` apart, to 4×4 outputs.

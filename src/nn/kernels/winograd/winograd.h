@@ -35,4 +35,14 @@ void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, c
                      const WinogradFinish& finish, float* y, float* scratch);
 Index winograd_scratch(const Window& window, const WinogradWeights& weights, int threads);
 
+/// Window and weights of the convolution that turns dy into dx: dx (N, H, W, C) = dy * flipped. w is (3, 3, C, K).
+Window winograd_input_gradient_window(const Window& window, Index k);
+WinogradWeights winograd_flipped_weights(Index c, Index k, const float* w);
+
+/// dw (3, 3, C, K) from x and dy (N, OH, OW, K): the forward's products the other way round, 36 a pair of channels and
+/// tile instead of 144. scratch holds winograd_weight_gradient_scratch numbers.
+void winograd_weight_gradient(Parallel& parallel, const Window& window, Index k, const float* x, const float* dy,
+                              float* dw, float* scratch);
+Index winograd_weight_gradient_scratch(const Window& window, Index k);
+
 }  // namespace svnet::kernels
