@@ -36,6 +36,12 @@ void check_numbers(const char* function, const char* argument, const py::array& 
         dtype_text(array), "; expects integers or floats");
 }
 
+/// `subject`: "images have", for the message.
+void check_pixels(const char* function, const char* subject, const py::array& array) {
+  check(array.dtype().kind() == 'u' && array.itemsize() == 1, "[", function, "] ", subject, " dtype ",
+        dtype_text(array), "; expects uint8, grey levels from 0 to 255, not yet preprocessed");
+}
+
 /// Whether every value of the dtype is a float32.
 bool fits_float(const py::array& array) { return array.itemsize() <= (is_integer(array) ? 2 : 4); }
 
@@ -85,11 +91,36 @@ GivenLabels::GivenLabels(const char* function, const char* argument, const py::o
 
 Array<std::uint8_t> images(const char* function, const py::object& given) {
   const py::array array = any_array(function, "images", given, "uint8 (N, H, W, 3)");
-  check(array.dtype().kind() == 'u' && array.itemsize() == 1, "[", function, "] images have dtype ", dtype_text(array),
-        "; expects uint8, grey levels from 0 to 255, not yet preprocessed");
+  check_pixels(function, "images have", array);
   check(array.ndim() == 4 && array.shape(3) == 3, "[", function, "] images have shape ", shape_text(array),
         "; expects (N, H, W, 3), RGB", array.ndim() == 3 ? "; for one image pass image[None]" : "");
   return Array<std::uint8_t>(array);
+}
+
+Image image(const char* function, const py::object& given) {
+  const py::array array = any_array(function, "image", given, "uint8 (H, W, 3)");
+  check_pixels(function, "image has", array);
+  check(array.ndim() == 3 && array.shape(2) == 3, "[", function, "] image has shape ", shape_text(array),
+        "; expects (H, W, 3), RGB", array.ndim() == 4 ? "; pass one image at a time" : "");
+  check(array.size() > 0, "[", function, "] image has shape ", shape_text(array), ", no pixels");
+  const Array<std::uint8_t> pixels(array);
+  return {pixels.shape(0), pixels.shape(1), {pixels.data(), pixels.data() + pixels.size()}};
+}
+
+std::vector<Pose> camera_poses(const char* function, const py::object& given) {
+  const py::array array = any_array(function, "angles_deg", given, "numbers (M, 2)");
+  check_numbers(function, "angles_deg", array);
+  check(array.ndim() == 2 && array.shape(1) == 2 && array.size() > 0, "[", function, "] angles_deg has shape ",
+        shape_text(array), "; expects (M, 2), theta and phi of each pose in degrees, and at least one");
+  const Array<double> angles(array);
+  std::vector<Pose> poses;
+  poses.reserve(static_cast<std::size_t>(angles.shape(0)));
+  for (py::ssize_t i = 0; i < angles.shape(0); ++i) {
+    poses.push_back({angles.at(i, 0), angles.at(i, 1)});
+    const std::string problem = pose_problem(poses.back());
+    check(problem.empty(), "[", function, "] angles_deg[", i, "]: ", problem);
+  }
+  return poses;
 }
 
 std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {

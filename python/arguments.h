@@ -3,11 +3,14 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
 #include "base/index.h"
+#include "models/image/image.h"
+#include "models/pose.h"
 #include "semantics/distances.h"
 
 // From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.
@@ -46,6 +49,13 @@ class GivenLabels {
 
 /// Pictures (N, H, W, 3) of uint8. Throws Error for anything else.
 Array<std::uint8_t> images(const char* function, const pybind11::object& given);
+
+/// A copy of a picture (H, W, 3) of uint8, of at least one pixel. Throws Error for anything else.
+Image image(const char* function, const pybind11::object& given);
+
+/// Poses (M, 2), theta and phi in degrees, from any array-like of integers or floats; at least one, all in range.
+/// Throws Error for anything else, with the number of the pose.
+std::vector<Pose> camera_poses(const char* function, const pybind11::object& given);
 
 /// A Python or NumPy integer in [lowest, 2^64). Throws Error for anything else.
 std::uint64_t whole_number(const char* function, const char* argument, const pybind11::object& given,

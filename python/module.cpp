@@ -43,5 +43,6 @@ PYBIND11_MODULE(_svnet, module) {
   svnet::python::bind_cluster_metrics(module);
   svnet::python::bind_scores(module);
   svnet::python::bind_backbone(module);
-  module.attr("Backbone").attr("__module__") = "svnet";
+  svnet::python::bind_model(module);
+  for (const char* name : {"Backbone", "Model"}) module.attr(name).attr("__module__") = "svnet";
 }

@@ -1,4 +1,4 @@
-"""Semantic view selection: features of images, clusterings of them, and the semantic scores of views.
+"""Semantic view selection: features of images, clusterings of them, the semantic scores of views, and their prediction.
 
     import svnet
     backbone = svnet.Backbone("mobilenet_v2", weights="mobilenet_v2.h5")
@@ -6,8 +6,10 @@
     labels = svnet.ward(features, n_clusters=8)
     print(svnet.fowlkes_mallows(category, labels))
     scores = svnet.semantic_scores(features, category, object, pose, min_samples=10000)
+    model = svnet.Model.load("model.safetensors")             # what svnet-train wrote
+    index, scores = model.best_view(top_image, [[0, 45], [90, 60]])  # (H, W, 3) uint8; theta, phi in degrees
 
-NumPy in, NumPy out. Features and labels may be of any integer or float dtype and have any strides. Everything releases
+NumPy in, NumPy out. Features, labels and angles may be of any integer or float dtype and have any strides. Everything releases
 the GIL while it computes, and may be called from several threads. Results are the same bits for any number of threads.
 What a caller can mend is raised as svnet.Error, a ValueError.
 """
@@ -15,6 +17,7 @@ What a caller can mend is raised as svnet.Error, a ValueError.
 from ._svnet import (
     Backbone,
     Error,
+    Model,
     __version__,
     adjusted_rand,
     fowlkes_mallows,
@@ -30,6 +33,7 @@ from ._svnet import (
 __all__ = [
     "Backbone",
     "Error",
+    "Model",
     "__version__",
     "adjusted_rand",
     "fowlkes_mallows",

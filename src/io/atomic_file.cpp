@@ -2,6 +2,8 @@
 
 #include <atomic>
 #include <cerrno>
+#include <csignal>
+#include <cstdio>
 #include <string>
 #include <system_error>
 
@@ -17,6 +19,14 @@ namespace fs = std::filesystem;
 
 [[noreturn]] void fail_to_write(const fs::path& path, int error) {
   fail(path.string(), ": cannot be written: ", std::generic_category().message(error));
+}
+
+/// fsync, begun again where a signal has interrupted it.
+int synced(int descriptor) {
+  int result;
+  do result = ::fsync(descriptor);
+  while (result != 0 && errno == EINTR);
+  return result;
 }
 
 class Descriptor {
@@ -49,13 +59,40 @@ void check_target(const fs::path& path) {
         folder.string(), " does not exist; create it first");
 }
 
+/// What the names of a target's temporaries begin with; PID-N.tmp follows. The target's name is cut so that they are
+/// not longer than file systems allow.
+std::string temporary_prefix(const fs::path& target) {
+  return ".svnet-" + target.filename().string().substr(0, 200) + "-";
+}
+
+/// The process that made the temporary, 0 where the name is not one of the target's.
+pid_t maker_of(const std::string& name, const std::string& prefix) {
+  unsigned pid = 0, counter = 0;
+  int length = 0;
+  if (!name.starts_with(prefix)) return 0;
+  const char* rest = name.c_str() + prefix.size();
+  if (std::sscanf(rest, "%9u-%9u.tmp%n", &pid, &counter, &length) != 2 || length == 0 || rest[length] != '\0') return 0;
+  return static_cast<pid_t>(pid);
+}
+
+/// Removes what processes that were killed while they wrote the target have left.
+void remove_stale_temporaries(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
+    const pid_t maker = maker_of(entry->path().filename().string(), prefix);
+    if (maker > 0 && ::kill(maker, 0) != 0 && errno == ESRCH) ::unlink(entry->path().c_str());
+  }
+}
+
 /// A file of ours beside the target that is removed unless it was renamed away.
 class Temporary {
  public:
   explicit Temporary(const fs::path& target) {
     static std::atomic<unsigned> counter{0};
+    remove_stale_temporaries(target);
     for (;;) {
-      path_ = folder_of(target) / joined(".svnet-", ::getpid(), "-", counter++, ".tmp");
+      path_ = folder_of(target) / joined(temporary_prefix(target), ::getpid(), "-", counter++, ".tmp");
       const Descriptor file(::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
       if (file.number() >= 0) return;
       if (errno != EEXIST) fail_to_write(target, errno);
@@ -72,7 +109,7 @@ class Temporary {
   void sync_and_rename(const fs::path& target) {
     {
       const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
-      if (file.number() < 0 || ::fsync(file.number()) != 0) fail_to_write(target, errno);
+      if (file.number() < 0 || synced(file.number()) != 0) fail_to_write(target, errno);
     }
     if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(target, errno);
     path_.clear();
@@ -87,7 +124,7 @@ class Temporary {
 void sync_folder(const fs::path& target) {
   const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
   if (folder.number() < 0) return;
-  if (::fsync(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
+  if (synced(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
 }
 
 void write_all(const fs::path& target, const fs::path& temporary, std::string_view contents) {

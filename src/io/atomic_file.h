@@ -8,7 +8,8 @@ namespace svnet {
 /// Replaces the file `path` as a whole: readers, and a machine that loses power, see the old file or the new one, never
 /// a part. A new, empty temporary file in the same folder (its name begins with a dot) is handed to `write`, which
 /// fills it and closes it; it is then synced to disk and renamed to `path`, and the folder is synced. If anything
-/// throws, the temporary is removed and `path` is left as it was.
+/// throws, the temporary is removed and `path` is left as it was. What a process that was killed while it wrote `path`
+/// has left behind is removed by the next one that writes it.
 ///
 /// `path` must not exist or be a regular file; a symbolic link is replaced, not followed. Throws Error that names
 /// `path` and says what the system said; exceptions of `write` pass through.

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <cerrno>
 #include <cstdlib>
 #include <map>
+#include <system_error>
 
 #include "base/parallel.h"
 #include "io/atomic_file.h"
@@ -47,8 +49,14 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
 class ScratchFolder {
  public:
   ScratchFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "svnet-dry-run-XXXXXX").string();
-    check(mkdtemp(name.data()) != nullptr, name, ": cannot make a temporary folder");
+    std::error_code error;
+    const auto temporary = std::filesystem::temp_directory_path(error);
+    const char* given = std::getenv("TMPDIR");
+    check(!error, given != nullptr ? given : "/tmp", ": is no folder for temporary files; set TMPDIR to one");
+    std::string name = (temporary / "svnet-dry-run-XXXXXX").string();
+    check(mkdtemp(name.data()) != nullptr, temporary.string(),
+          ": no temporary folder can be made in it: ", std::generic_category().message(errno),
+          "; set TMPDIR to another one");
     path_ = name;
   }
   ~ScratchFolder() {

@@ -6,6 +6,7 @@
 
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -105,4 +106,35 @@ TEST_CASE("a disk that takes no more is an error that names the target and leave
   CHECK(message == path.string() + ": cannot be written: File too large");
   CHECK(file_contents(path) == "old");
   CHECK(entries(folder.path()) == 1);
+}
+
+TEST_CASE("what a killed process left of a file is removed by the next one that writes it") {
+  const TemporaryFolder folder;
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  REQUIRE(::waitpid(dead, nullptr, 0) == dead);
+  const auto temporary = [&](const std::string& name, pid_t pid, const std::string& rest) {
+    return folder.write(".svnet-" + name + "-" + std::to_string(pid) + rest, "half");
+  };
+  const fs::path stale = temporary("scores.h5", dead, "-7.tmp");
+  const std::vector<fs::path> others{temporary("scores.h5", ::getpid(), "-7000.tmp"),  // of someone who lives
+                                     temporary("scores.h5.bak", dead, "-7.tmp"),       // of another file
+                                     temporary("other.h5", dead, "-7.tmp"),
+                                     temporary("scores.h5", dead, "-7.tmp.bak"),  // of someone else's making
+                                     temporary("scores.h5-1", dead, "-7.tmp"),
+                                     temporary("scores.h5", dead, "-7")};
+  write_atomically(folder.path() / "scores.h5", "whole");
+  CHECK_FALSE(fs::exists(stale));
+  for (const fs::path& other : others) {
+    INFO(other);
+    CHECK(fs::exists(other));
+  }
+  CHECK(entries(folder.path()) == others.size() + 1);
+}
+
+TEST_CASE("names as long as file systems allow can be written") {
+  const TemporaryFolder folder;
+  const std::string name(255, 'n');
+  write_atomically(folder.path() / name, "x");
+  CHECK(file_contents(folder.path() / name) == "x");
 }

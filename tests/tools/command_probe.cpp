@@ -1,6 +1,8 @@
 // A program that does what its argument says, for command_test.cpp to watch from outside.
 
 #include <chrono>
+#include <csignal>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -54,6 +56,12 @@ void work(const std::string& what, const std::string& file, Console& console) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
       progress("waiting", i, 3000, static_cast<double>(i) / 100);
     }
+  } else if (what == "hangup") {
+    std::raise(SIGHUP);
+    progress("after it", 1, 1, 0);
+  } else if (what == "openblas") {
+    const char* core = std::getenv("OPENBLAS_CORETYPE");
+    console.result(core != nullptr ? core : "none");
   } else if (what == "hang") {
     console.result("ready");
     std::cout.flush();

@@ -43,6 +43,7 @@ class Child {
     if (pid_ == 0) {
       if (!terminal) ::dup2(ends[1], STDOUT_FILENO), ::dup2(ends[1], STDERR_FILENO);
       ::setenv("TERM", "xterm", 1);
+      for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
       ::execl(COMMAND_PROBE, COMMAND_PROBE, what.c_str(), file.empty() ? nullptr : file.c_str(), nullptr);
       ::_exit(127);
     }
@@ -100,9 +101,11 @@ TEST_CASE("wrong usage is exit 2 with a message") {
     const Ran ran = run(arguments);
     CHECK(ran.status == 2);
     CHECK(ran.out.empty());
-    CHECK_FALSE(ran.err.empty());
+    CHECK_THAT(ran.err, Catch::StartsWith("svnet-probe: ") && Catch::EndsWith("; see svnet-probe --help\n"));
+    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
   }
-  CHECK(run("").err == "WHAT is required\nRun with --help for more information.\n");
+  CHECK(run("").err == "svnet-probe: WHAT is required; see svnet-probe --help\n");
+  CHECK_THAT(run("result --threads 0").err, Catch::StartsWith("svnet-probe: --threads: "));
   CHECK(run("usage").status == 2);
   CHECK(run("usage").err == "svnet-probe: either --a or --b; see svnet-probe --help\n");
 }
@@ -134,8 +137,14 @@ TEST_CASE("results go to stdout, the log to stderr without control characters") 
 }
 
 TEST_CASE("a result that cannot be written is a failure") {
-  const int status = std::system(COMMAND_PROBE " result --quiet >/dev/full 2>/dev/null");
-  CHECK(WEXITSTATUS(status) == 1);
+  for (const char* arguments : {"result --quiet", "--help", "--version"}) {
+    INFO(arguments);
+    const TemporaryFolder folder;
+    const std::string err = folder.path() / "err";
+    const int status = std::system((std::string(COMMAND_PROBE " ") + arguments + " >/dev/full 2>" + err).c_str());
+    CHECK(WEXITSTATUS(status) == 1);
+    CHECK(file_contents(err) == "svnet-probe: cannot write to standard output, is the disk full?\n");
+  }
 }
 
 TEST_CASE("the option --threads goes before SVNET_THREADS") {
@@ -176,12 +185,15 @@ TEST_CASE("a log file gets every line with its time, quiet or not, and is append
   const std::string time = "dddd-dd-dd dd:dd:dd ";
   const std::string once = time + "to the file\n" + time + "scores: 10 in 1.0 s\n" + time + "svnet-probe: the end\n";
   CHECK(contents == once + once);
-  CHECK_THAT(run("log /proc/no/log.txt").err,
-             Catch::Contains("svnet-probe: /proc/no/log.txt: cannot open the log file"));
+  CHECK_THAT(run("log /proc/no/log.txt").err, Catch::StartsWith("svnet-probe: /proc/no: cannot make this folder: "));
+  CHECK(run("log " + file + "/log.txt").err == "svnet-probe: " + file + ": is not a folder; give the name of one\n");
+  std::filesystem::create_directories(folder.path() / "run2" / "log.txt");
+  CHECK_THAT(run("log " + (folder.path() / "run2" / "log.txt").string()).err,
+             Catch::Contains("run2/log.txt: cannot open the log file"));
 }
 
-TEST_CASE("SIGINT and SIGTERM unwind: temporaries are gone, exit 130") {
-  for (const int number : {SIGINT, SIGTERM}) {
+TEST_CASE("SIGINT, SIGTERM and SIGHUP unwind: temporaries are gone, exit 130") {
+  for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const std::string file = folder.path() / "half";
     Child child("wait", file, false);
@@ -193,6 +205,20 @@ TEST_CASE("SIGINT and SIGTERM unwind: temporaries are gone, exit 130") {
     CHECK(rest == "svnet-probe: interrupted\n");
     CHECK_FALSE(std::filesystem::exists(file));
   }
+}
+
+TEST_CASE("a signal that the command was started to ignore stays ignored, as nohup wants it") {
+  const Ran ran = run("result", "trap '' HUP INT TERM;");
+  CHECK(ran.status == 0);
+  const TemporaryFolder folder;
+  CHECK(std::system(
+            ("trap '' HUP; " COMMAND_PROBE " hangup " + (folder.path() / "x").string() + " >/dev/null 2>&1").c_str()) == 0);
+}
+
+TEST_CASE("SVNET_MAX_ISA holds for OpenBLAS too") {
+  CHECK(run("openblas", "SVNET_MAX_ISA=SCALAR").out == "Prescott\n");
+  CHECK(run("openblas", "SVNET_MAX_ISA=SCALAR OPENBLAS_CORETYPE=Nehalem").out == "Nehalem\n");
+  CHECK(run("openblas").out == "none\n");
 }
 
 TEST_CASE("the second Ctrl-C ends a command that does not look") {

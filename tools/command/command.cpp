@@ -1,5 +1,6 @@
 #include "command/command.h"
 
+#include <csignal>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -8,8 +9,18 @@
 #include "base/parallel.h"
 #include "base/version.h"
 #include "command/interrupt.h"
+#include "command/openblas_cap.h"
 
 namespace svnet {
+namespace {
+
+void flush_results() {
+  std::cout.flush();
+  throw_if_interrupted();
+  check(std::cout.good(), "cannot write to standard output, is the disk full?");
+}
+
+}  // namespace
 
 Command::Command(std::string name, const std::string& description, const std::string& example)
     : name_(std::move(name)), app_(description, name_) {
@@ -29,10 +40,12 @@ Command::Command(std::string name, const std::string& description, const std::st
 }
 
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body) {
+  cap_openblas_from_environment(argv);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, not the end of the process
   try {
     app_.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return app_.exit(e) == 0 ? 0 : 2;
+  } catch (const CLI::ParseError& answer) {
+    return parsed(answer);
   }
   Console console(quiet_, stderr_is_terminal());
   try {
@@ -41,19 +54,32 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     if (threads_ > 0) Parallel::shared().resize(threads_);
     body(console);
     console.end_task();
-    std::cout.flush();
-    check(std::cout.good(), "cannot write to standard output");
+    flush_results();
     return 0;
   } catch (const Interrupted&) {
     return report(console, "interrupted", 130);
   } catch (const UsageError& e) {
-    return report(console, std::string(e.what()) + "; see " + name_ + " --help", 2);
+    return report(console, usage_text(e.what()), 2);
   } catch (const std::bad_alloc&) {
     return report(console, "out of memory", 1);
   } catch (const std::exception& e) {
     return report(console, e.what(), 1);
   }
 }
+
+int Command::parsed(const CLI::ParseError& answer) {
+  Console console(false, stderr_is_terminal());
+  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2);
+  app_.exit(answer, std::cout, std::cerr);
+  try {
+    flush_results();
+    return 0;
+  } catch (const Error& e) {
+    return report(console, e.what(), 1);
+  }
+}
+
+std::string Command::usage_text(const std::string& message) const { return message + "; see " + name_ + " --help"; }
 
 int Command::report(Console& console, const std::string& message, int status) const {
   console.error(name_ + ": " + message);

@@ -41,6 +41,8 @@ class Command {
   int run(int argc, char** argv, const std::function<void(Console&)>& body);
 
  private:
+  int parsed(const CLI::ParseError& answer);
+  std::string usage_text(const std::string& message) const;
   int report(Console& console, const std::string& message, int status) const;
 
   std::string name_;

@@ -66,6 +66,12 @@ void Console::error(std::string_view text) {
 }
 
 void Console::log_to(const std::filesystem::path& file) {
+  const std::filesystem::path folder = file.parent_path();
+  std::error_code error;
+  if (!folder.empty()) std::filesystem::create_directories(folder, error);
+  check(!error, folder.string(),
+        std::filesystem::exists(folder) ? ": is not a folder; give the name of one"
+                                        : joined(": cannot make this folder: ", error.message()));
   try {
     log_file_ = std::make_unique<LogFile>(file);
   } catch (const spdlog::spdlog_ex&) {

@@ -5,19 +5,31 @@
 namespace svnet {
 namespace {
 
+constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
+
 volatile std::sig_atomic_t interrupted = 0;
+
+/// No SA_RESTART: a call that waits for a pipe or a terminal returns.
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action {};
+  action.sa_handler = handler;
+  sigemptyset(&action.sa_mask);
+  ::sigaction(number, &action, nullptr);
+}
 
 void remember(int) {
   interrupted = 1;
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int number : kSignals) handle(number, SIG_DFL);
 }
 
 }  // namespace
 
 void remember_interrupts() {
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
+  for (const int number : kSignals) {
+    struct sigaction before {};
+    ::sigaction(number, nullptr, &before);
+    if (before.sa_handler != SIG_IGN) handle(number, remember);  // nohup, and a script's background jobs, ignore some
+  }
 }
 
 void throw_if_interrupted() {

@@ -10,12 +10,21 @@ herr_t keep_first(unsigned number, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
+/// Of "file write failed: time = …, filename = …, errno = 28, error message = 'No space left on device', …" the
+/// message.
+std::string system_message(const std::string& text) {
+  const std::string start = "error message = '";
+  const auto begin = text.find(start);
+  const auto end = begin == std::string::npos ? begin : text.find('\'', begin + start.size());
+  return end == std::string::npos ? text : text.substr(begin + start.size(), end - begin - start.size());
+}
+
 }  // namespace
 
 std::string reason() {
   std::string text;
   H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, keep_first, &text);
-  return text.empty() ? "the HDF5 library gives no reason" : printable(text);
+  return text.empty() ? "the HDF5 library gives no reason" : printable(system_message(text));
 }
 
 }  // namespace svnet::hdf5

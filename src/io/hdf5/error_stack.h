@@ -21,8 +21,8 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-/// The innermost message of the call that failed last. Ask at once: the next call of the library, even one that closes
-/// something, forgets it.
+/// The innermost message of the call that failed last, where the system refused something what the system said. Ask at
+/// once: the next call of the library, even one that closes something, forgets it.
 std::string reason();
 
 }  // namespace svnet::hdf5

@@ -1,0 +1,82 @@
+# Types of the module; what the arguments mean, with shapes and units, is in the docstrings.
+import os
+from typing import Literal, Optional, SupportsIndex, TypedDict, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+_Path = Union[str, bytes, "os.PathLike[str]", "os.PathLike[bytes]"]
+_SemanticScores = TypedDict(
+    "_SemanticScores",
+    {
+        "individual": NDArray[np.float64],
+        "global": NDArray[np.float64],
+        "count": NDArray[np.uint64],
+        "standard_error": NDArray[np.float64],
+    },
+)
+
+__all__ = [
+    "Backbone",
+    "Error",
+    "Model",
+    "__version__",
+    "adjusted_rand",
+    "fowlkes_mallows",
+    "fowlkes_mallows_individual",
+    "kmeans",
+    "normalized_mutual_info",
+    "purity",
+    "semantic_scores",
+    "set_threads",
+    "ward",
+]
+
+__version__: str
+
+class Error(ValueError): ...
+
+class Backbone:
+    def __init__(
+        self, name: str, weights: Optional[_Path] = None, layer: Optional[str] = None, seed: SupportsIndex = 0
+    ) -> None: ...
+    def features(self, images: NDArray[np.uint8]) -> NDArray[np.float32]: ...
+    @property
+    def name(self) -> str: ...
+    @property
+    def layer(self) -> str: ...
+    @property
+    def dimension(self) -> int: ...
+    @property
+    def input_shape(self) -> tuple[int, int, int]: ...
+    @property
+    def unused_layers(self) -> list[str]: ...
+
+class Model:
+    @staticmethod
+    def load(path: _Path) -> Model: ...
+    def score(self, image: NDArray[np.uint8], angles_deg: ArrayLike) -> NDArray[np.float32]: ...
+    def best_view(self, image: NDArray[np.uint8], angles_deg: ArrayLike) -> tuple[int, NDArray[np.float32]]: ...
+
+def adjusted_rand(true: ArrayLike, pred: ArrayLike) -> float: ...
+def fowlkes_mallows(true: ArrayLike, pred: ArrayLike) -> float: ...
+def fowlkes_mallows_individual(true: ArrayLike, pred: ArrayLike) -> NDArray[np.float64]: ...
+def kmeans(
+    features: ArrayLike, n_clusters: SupportsIndex, n_init: SupportsIndex = 10, seed: SupportsIndex = 0
+) -> tuple[NDArray[np.int64], float]: ...
+def normalized_mutual_info(
+    true: ArrayLike, pred: ArrayLike, average: Literal["arithmetic", "geometric"] = "arithmetic"
+) -> float: ...
+def purity(true: ArrayLike, pred: ArrayLike) -> float: ...
+def semantic_scores(
+    features: ArrayLike,
+    category: ArrayLike,
+    object: ArrayLike,
+    pose: ArrayLike,
+    problems: Optional[SupportsIndex] = None,
+    min_samples: Optional[SupportsIndex] = None,
+    seed: SupportsIndex = 0,
+    singletons: Literal["zero", "skip"] = "zero",
+) -> _SemanticScores: ...
+def set_threads(n: SupportsIndex) -> None: ...
+def ward(features: ArrayLike, n_clusters: SupportsIndex) -> NDArray[np.int64]: ...

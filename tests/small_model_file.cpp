@@ -1,0 +1,8 @@
+// small_model_file FILE: writes small_model() of small_model.h, for tests that are not in C++.
+#include "small_model.h"
+
+int main(int argc, char** argv) {
+  if (argc != 2) return 2;
+  svnet::write_model(argv[1], small_model());
+  return 0;
+}

@@ -1,0 +1,46 @@
+#pragma once
+#include <set>
+#include <string>
+#include <vector>
+
+#include "temporary_folder.h"
+
+namespace svnet {
+
+/// What a command line printed, and its exit status.
+struct Ran {
+  int status;
+  std::string out, err;
+};
+
+/// A folder with whole inputs for every command, made once per process in a few hundred milliseconds:
+///   data/            write_small_dataset: categories ball, cone, cube, ring, 2 objects of each, 4 views of each
+///   weights/         tiny_xception.h5 in Keras' legacy layout, random numbers
+///   config.yaml      data, weights and all sizes small; run folder by --output
+///   features.h5, scores.h5, model.safetensors, top.png, poses.csv
+class Workplace {
+ public:
+  Workplace();
+
+  /// Runs shell commands in the folder, svnet's programs on the PATH.
+  Ran run(const std::string& command) const;
+  /// Runs them and requires exit 0 and nothing on stderr.
+  std::string output_of(const std::string& command) const;
+
+  std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
+  const TemporaryFolder& folder() const { return folder_; }
+  /// The paths of all files and folders, relative to the folder.
+  std::set<std::string> entries() const;
+
+ private:
+  TemporaryFolder folder_;
+};
+
+/// Writes tiny_xception with random numbers as Keras' legacy layout, layers in Keras' order. With `swapped` two layers
+/// of the same shapes change places.
+void write_tiny_weights(const std::filesystem::path& path, bool swapped = false);
+
+/// The lines of a text, without their ends.
+std::vector<std::string> lines_of(const std::string& text);
+
+}  // namespace svnet
