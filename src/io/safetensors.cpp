@@ -70,8 +70,10 @@ SafetensorsFile::SafetensorsFile(const std::filesystem::path& path)
     : path_(path.string()), mapping_(std::make_unique<Mapping>(path_)) {
   const std::span<const std::byte> bytes = mapping_->bytes();
   const std::uint64_t length = little_endian(bytes.data());
-  check(length <= kLargestSafetensorsHeader && length <= bytes.size() - kLengthBytes, path_, ": declares a header of ",
-        length, " bytes in a file of ", bytes.size(), "; it is incomplete, or no safetensors file");
+  check(length <= kLargestSafetensorsHeader, path_, ": is not a safetensors file: it declares a header of ", length,
+        " bytes");
+  check(length <= bytes.size() - kLengthBytes, path_, ": declares a header of ", length, " bytes in a file of ",
+        bytes.size(), "; it is incomplete, or no safetensors file");
   const std::string_view json(reinterpret_cast<const char*>(bytes.data() + kLengthBytes), length);
   const std::span<const std::byte> data = bytes.subspan(kLengthBytes + length);
   SafetensorsHeader header = parse_safetensors_header(path_, json, data.size());

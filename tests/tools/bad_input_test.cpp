@@ -128,7 +128,7 @@ const Row kRows[] = {
      "cp model.safetensors bad",
      "svnet-eval bad", "bad/model.safetensors: was trained with another configuration"},
     {"nothing to describe", "", "svnet-info none.h5", "none.h5: cannot be read"},
-    {"a picture to describe", "", "svnet-info top.png", "top.png: is neither HDF5 nor safetensors"},
+    {"a picture to describe", "", "svnet-info top.png", "top.png: is not a safetensors file"},
     // outputs
     {"output into a folder that does not exist", "", PREDICT "top.png --plot none/plot.png",
      "none/plot.png: cannot be written: the folder none does not exist; create it first"},

@@ -212,7 +212,8 @@ TEST_CASE("a signal that the command was started to ignore stays ignored, as noh
   CHECK(ran.status == 0);
   const TemporaryFolder folder;
   CHECK(std::system(
-            ("trap '' HUP; " COMMAND_PROBE " hangup " + (folder.path() / "x").string() + " >/dev/null 2>&1").c_str()) == 0);
+            ("trap '' HUP; " COMMAND_PROBE " hangup " + (folder.path() / "x").string() + " >/dev/null 2>&1").c_str()) ==
+        0);
 }
 
 TEST_CASE("SVNET_MAX_ISA holds for OpenBLAS too") {

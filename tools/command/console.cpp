@@ -1,5 +1,6 @@
 #include "command/console.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 
@@ -51,7 +52,12 @@ void Console::line(std::string_view text) { print(without_control_characters(tex
 
 void Console::result(std::string_view text) {
   erase_bar();
-  std::cout << text << '\n';
+  std::size_t start = 0, end;
+  do {  // line by line: a result may have many
+    end = std::min(text.find('\n', start), text.size());
+    std::cout << without_control_characters(text.substr(start, end - start)) << '\n';
+    start = end + 1;
+  } while (end < text.size());
 }
 
 void Console::error(std::string_view text) {

@@ -27,7 +27,7 @@ class Console {
 
   /// One line of the log.
   void line(std::string_view text);
-  /// Text on stdout, with a line's end.
+  /// Lines of text on stdout, the last one with its end too.
   void result(std::string_view text);
   /// One line on stderr, quiet or not.
   void error(std::string_view text);

@@ -1,0 +1,86 @@
+// Every instruction set that the machine has gives the same features, semantic scores and predictions, up to rounding.
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "base/cpu.h"
+#include "io/features_file.h"
+#include "io/scores_file.h"
+#include "workplace.h"
+
+using namespace svnet;
+
+namespace {
+
+/// Of the largest value: networks of a dozen layers in float32, whose sums are taken in another order.
+constexpr double kTolerance = 1e-4;
+
+/// The largest difference, relative to the largest value.
+template <class T>
+double difference(const std::vector<T>& a, const std::vector<T>& b) {
+  REQUIRE(a.size() == b.size());
+  double largest = 0, apart = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (std::isnan(a[i]) && std::isnan(b[i])) continue;
+    largest = std::max(largest, std::abs(static_cast<double>(a[i])));
+    apart = std::max(apart, std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i])));
+  }
+  REQUIRE(largest > 0);
+  return apart / largest;
+}
+
+/// Scores by pose, as svnet-predict --json prints them.
+std::vector<double> predicted(const std::string& json) {
+  const auto parsed = nlohmann::json::parse(json);
+  std::vector<std::array<double, 3>> views;
+  for (const auto& view : parsed.at("views"))
+    views.push_back({view.at("theta_deg"), view.at("phi_deg"), view.at("score")});
+  std::sort(views.begin(), views.end());
+  std::vector<double> scores;
+  for (const auto& view : views) scores.push_back(view[2]);
+  return scores;
+}
+
+struct Results {
+  std::vector<float> features;
+  std::vector<double> individual, global, predictions;
+};
+
+Results results(const Workplace& place, const std::string& instruction_set) {
+  const std::string set = "SVNET_MAX_ISA=" + instruction_set + " ";
+  place.output_of(set +
+                  "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
+                  "--output its.h5");
+  place.output_of(set + "svnet-score --quiet --dataset data --features its.h5 --problems 300 --output its-scores.h5");
+  const Scores scores = read_scores(place / "its-scores.h5");
+  return {read_features(place / "its.h5").values, scores.individual, scores.global,
+          predicted(place.output_of(set + "svnet-predict model.safetensors --image top.png --json"))};
+}
+
+}  // namespace
+
+TEST_CASE("SVNET_MAX_ISA: svnet-info says what is in force") {
+  const Workplace place;
+  for (const std::string& set : instruction_sets())
+    CHECK_THAT(place.output_of("SVNET_MAX_ISA=" + set + " svnet-info"), Catch::Contains("\nkernels: " + set + " "));
+  CHECK_THAT(place.output_of("svnet-info"), Catch::Contains("\nkernels: " + instruction_sets().front() + " "));
+}
+
+TEST_CASE("SVNET_MAX_ISA: all instruction sets agree to 1e-4") {
+  const Workplace place;
+  const std::vector<std::string> sets = instruction_sets();
+  const Results best = results(place, sets.front());
+  bool differ = false;
+  for (const std::string& set : sets) {
+    INFO(set);
+    const Results capped = results(place, set);
+    CHECK(difference(best.features, capped.features) <= kTolerance);
+    CHECK(difference(best.individual, capped.individual) <= kTolerance);
+    CHECK(difference(best.global, capped.global) <= kTolerance);
+    CHECK(difference(best.predictions, capped.predictions) <= kTolerance);
+    differ |= best.features != capped.features;
+  }
+  if (sets.size() > 1) CHECK(differ);  // otherwise the cap had no effect
+}
