@@ -18,7 +18,7 @@ int main(int argc, char** argv) {
   command.app()
       .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
       ->check(CLI::Range(Index{1}, Index{1} << 53));
-  command.app().add_option("--json", json, "Writes evaluation.json here too");
+  command.app().add_option("--json", json, "Writes evaluation.json here too")->type_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();

@@ -13,11 +13,16 @@ int main(int argc, char** argv) {
       "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5");
   std::string backbone, layer;
   std::filesystem::path weights, images, output;
-  command.app().add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2 or tiny_xception")->required();
-  command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required();
-  command.app().add_option("--images", images, "The dataset's folder")->required();
-  command.app().add_option("--output", output, "The file to write")->required();
-  command.app().add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)");
+  command.app()
+      .add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2 or tiny_xception")
+      ->required()
+      ->type_name("NAME");
+  command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required()->type_name("FILE");
+  command.app().add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
+  command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
+  command.app()
+      .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
+      ->type_name("NAME");
   return command.run(argc, argv, [&](Console& console) {
     check_can_be_written(output);
     KerasLoadReport report;

@@ -15,9 +15,12 @@ int main(int argc, char** argv) {
       .add_option("CONFIG", config_file, "The configuration; configs/paper.yaml explains every key")
       ->required();
   command.app()
-      .add_option("--set", overrides, "Sets a key, KEY=VALUE; may be given several times")
+      .add_option("--set", overrides, "Sets a key of the configuration; may be given several times")
+      ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
-  command.app().add_option("--output", output, "The run folder (default: runs/<name of the configuration>)");
+  command.app()
+      .add_option("--output", output, "The run folder (default: runs/<name of the configuration>)")
+      ->type_name("DIR");
   command.app()
       .add_option("--resume", resume, "auto: goes on with what the folder holds of the same run; never: trains anew")
       ->check(CLI::IsMember({"auto", "never"}))

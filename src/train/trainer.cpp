@@ -150,7 +150,7 @@ void Trainer::train(std::optional<Checkpoint> from,
       const auto examples =
           std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
       sum += step(examples, state.parameters, *optimizer) * static_cast<double>(end - begin);
-      progress.update(++done);
+      if (++done % per_epoch != 0) progress.update(done);
     }
     const double loss = sum / static_cast<double>(training_.size());
     std::optional<double> validation;
@@ -166,6 +166,7 @@ void Trainer::train(std::optional<Checkpoint> from,
                            validation ? joined(", validation loss ", *validation) : std::string(),
                            best ? ", best so far" : ""));
     after_epoch(state, best);
+    progress.update(done);
   }
 }
 

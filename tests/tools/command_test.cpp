@@ -90,6 +90,8 @@ TEST_CASE("every command has --help with an example, and --version") {
   for (const char* part : {"Does what it is told.", "Usage: svnet-probe [OPTIONS] WHAT [FILE]", "--threads", "--quiet",
                            "--version", "Example:\n  svnet-probe result\n  svnet-probe log log.txt\n"})
     CHECK_THAT(help.out, Catch::Contains(part));
+  for (std::size_t start = 0, end; (end = help.out.find('\n', start)) != std::string::npos; start = end + 1)
+    CHECK(end - start <= 80);
   CHECK(run("--version").out == std::string("svnet-probe ") + kVersion + "\n");
   CHECK(run("--version").status == 0);
 }

@@ -8,6 +8,7 @@
 #include "base/cpu.h"
 #include "base/parallel.h"
 #include "base/version.h"
+#include "command/help_text.h"
 #include "command/interrupt.h"
 #include "command/openblas_cap.h"
 
@@ -24,6 +25,7 @@ void flush_results() {
 
 Command::Command(std::string name, const std::string& description, const std::string& example)
     : name_(std::move(name)), app_(description, name_) {
+  app_.formatter(std::make_shared<HelpText>());
   app_.fallthrough();  // subcommands take the options below as well
   app_.set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
   app_.add_option("--threads", threads_, "Number of threads (default: SVNET_THREADS, or all CPUs it may use)")

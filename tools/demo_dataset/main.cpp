@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
   std::filesystem::path output;
   Index size = 128, objects = 4;
   std::uint64_t seed = 1;
-  command.app().add_option("--output", output, "The folder to make")->required();
+  command.app().add_option("--output", output, "The folder to make")->required()->type_name("DIR");
   command.app().add_option("--size", size, "Height and width in pixels (128)")->check(CLI::Range(16, 1024));
   command.app().add_option("--seed", seed, "Seed of the proportions, colours and poses (1)");
   command.app().add_option("--objects", objects, "Objects of each category (4)")->check(CLI::Range(1, 999));
