@@ -157,3 +157,21 @@ def test_a_model_outlives_its_file(path, tmp_path, image, expected):
     model = svnet.Model.load(copy)
     copy.unlink()
     assert model.score(image, POSES).tobytes() == expected.tobytes()
+
+
+def test_a_model_is_shared_between_threads(model, image, expected):
+    from concurrent.futures import ThreadPoolExecutor
+
+    with ThreadPoolExecutor(4) as pool:
+        results = list(pool.map(lambda _: model.score(image, POSES).tobytes(), range(24)))
+    assert set(results) == {expected.tobytes()}
+
+
+def test_interrupt_ends_a_long_computation(model, image):
+    import signal
+    import threading
+
+    threading.Timer(0.1, lambda: signal.raise_signal(signal.SIGINT)).start()
+    with pytest.raises(KeyboardInterrupt):
+        for _ in range(100000):
+            model.score(image, POSES * 20000)
