@@ -154,7 +154,7 @@ const Row kRows[] = {
     {"no number of threads", "", "SVNET_THREADS=many " PREDICT "top.png",
      "[SVNET_THREADS] 'many' is not a whole number"},
     {"C interface: wrong pixel format", "", "c_interface_probe model.safetensors format",
-     "[svnet_embed] there is no pixel format 9"},
+     "[svnet_embed] there is no pixel format 5"},
     {"C interface: NaN angle", "", "c_interface_probe model.safetensors nan",
      "[predict] pose 1: phi nan is not finite"},
     {"C interface: rows that overlap", "", "c_interface_probe model.safetensors stride",

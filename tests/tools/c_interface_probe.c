@@ -17,7 +17,7 @@ int main(int argc, char** argv) {
   if (features == NULL) return 2;
   if (status == SVNET_OK)
     status = svnet_embed(model, pixels, 4, 4, strcmp(mistake, "stride") == 0 ? 8 : 12,
-                         strcmp(mistake, "format") == 0 ? (svnet_pixel_format)9 : SVNET_RGB8, features);
+                         strcmp(mistake, "format") == 0 ? (svnet_pixel_format)5 : SVNET_RGB8, features);
   if (status == SVNET_OK) status = svnet_score(model, features, poses, 2, scores);
   if (status != SVNET_OK) fprintf(stderr, "c_interface_probe: %s\n", svnet_last_error());
   free(features);
