@@ -27,7 +27,7 @@ Parameters
 name : one of {names}
 weights : path of a Keras HDF5 weights file, legacy layout or Keras 3 .weights.h5; None: random numbers from the seed,
     and no top. The network has its top ("predictions") if the file has one.
-layer : Keras name of the output layer; None: the pooled output, after global average pooling
+layer : Keras name of the output layer; None: the pooled output, block5_pool of VGG, else global average pooling
     (also "avg_pool", "global_average_pooling2d")
 seed : int from 0 to 2^64 - 1, used where there are no weights
 

@@ -11,7 +11,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// Poses scored between two looks for an interrupt; whole batches of the predictor, so that scores do not depend on it.
+/// Poses scored between two looks for an interrupt.
 constexpr std::size_t kPosesAtOnce = 1024;
 
 constexpr const char* kClassDoc =

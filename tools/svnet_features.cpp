@@ -1,4 +1,5 @@
 // svnet-features: features of every picture of a dataset.
+#include "base/text.h"
 #include "command/command.h"
 #include "io/atomic_file.h"
 #include "io/file_hash.h"
@@ -11,10 +12,12 @@ int main(int argc, char** argv) {
       "svnet-features",
       "Writes the features of every picture of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
       "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5");
+  std::vector<std::string> names;
+  for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer;
   std::filesystem::path weights, images, output;
   command.app()
-      .add_option("--backbone", backbone, "The network: mobilenet, mobilenet_v2 or tiny_xception")
+      .add_option("--backbone", backbone, "The network: " + joined_with(", ", names))
       ->required()
       ->type_name("NAME");
   command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required()->type_name("FILE");

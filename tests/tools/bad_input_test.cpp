@@ -205,7 +205,7 @@ void check_model(const Workplace& place, const char* name, const char* fragment)
 
 }  // namespace
 
-TEST_CASE("bad input: one line that says what, where and what to do; exit 1; nothing left behind") {
+TEST_CASE("bad input: every row is one line of error, exit 1, and leaves nothing behind") {
   const Workplace place;
   for (const Row& row : kRows) check_row(place, row);
 }
