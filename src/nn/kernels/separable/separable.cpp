@@ -16,6 +16,8 @@ namespace HWY_NAMESPACE {
 
 /// Pixels whose sums are kept in registers together: they share the loads of the taps.
 constexpr int kPixels = 4;
+/// Channels that are walked together.
+constexpr Index kChannels = 4 * kPanel;
 
 /// The window rows and columns that lie inside the image.
 struct Taps {
@@ -41,8 +43,7 @@ HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const Depthwi
         const auto w = hn::Load(d, tap + v * kLanes);
         unrolled<kCount>([&](auto p) HWY_ATTR {
           auto value = hn::LoadU(d, from + p * step + v * kLanes);
-          // Not Max: NaN stays NaN.
-          if constexpr (kRelu) value = hn::IfThenElse(hn::Lt(value, hn::Zero(d)), hn::Zero(d), value);
+          if constexpr (kRelu) value = hn::Max(hn::Zero(d), value);  // in this order NaN stays NaN
           sum[p][v] = hn::MulAdd(value, w, sum[p][v]);
         });
       });
@@ -67,20 +68,23 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
   // Output columns whose windows lie wholly inside the image are [inner0, inner1).
   const Index inner0 = (win.left + win.stride_w - 1) / win.stride_w;
   const Index inner1 = win.w + win.left >= win.kw ? (win.w + win.left - win.kw) / win.stride_w + 1 : 0;
-  for (Index c = 0; c < win.c; c += kPanel, y += (end - begin) * kPanel) {
-    float* to = y;
+  // A few panels of channels together: each pixel is then some lines in a row, which the hardware fetches ahead.
+  for (Index c0 = 0; c0 < win.c; c0 += kChannels) {
+    const Index c1 = HWY_MIN(c0 + kChannels, win.c);
+    float* to = y + c0 * (end - begin);
     for (Index position = begin; position < end;) {
       const Index row = position / win.ow, n = row / win.oh, h = row % win.oh * win.stride_h - win.top;
       Index ow = position % win.ow;
       const Index stop = HWY_MIN(win.ow, ow + end - position);
       position += stop - ow;
-      Taps taps{HWY_MAX(Index{0}, -h), HWY_MIN(win.kh, win.h - h), 0, win.kw};
+      const Taps taps{HWY_MAX(Index{0}, -h), HWY_MIN(win.kh, win.h - h), 0, win.kw};
       const float* image_row = x + (n * win.h + h) * win.w * win.c;
       while (ow < stop) {
         const Index column = ow * win.stride_w - win.left;
         const float* from = image_row + column * win.c;
         if (ow >= inner0 && ow + kPixels <= HWY_MIN(stop, inner1)) {
-          depthwise_pixels<kPixels, kRelu>(win, taps, weights, from, c, low, high, to);
+          for (Index c = c0; c < c1; c += kPanel)
+            depthwise_pixels<kPixels, kRelu>(win, taps, weights, from, c, low, high, to + (c - c0) * (end - begin));
           ow += kPixels;
           to += kPixels * kPanel;
           continue;
@@ -88,7 +92,8 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
         Taps edge = taps;
         edge.kw0 = HWY_MAX(Index{0}, -column);
         edge.kw1 = HWY_MIN(win.kw, win.w - column);
-        depthwise_pixels<1, kRelu>(win, edge, weights, from, c, low, high, to);
+        for (Index c = c0; c < c1; c += kPanel)
+          depthwise_pixels<1, kRelu>(win, edge, weights, from, c, low, high, to + (c - c0) * (end - begin));
         ++ow;
         to += kPanel;
       }
