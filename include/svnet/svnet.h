@@ -22,8 +22,7 @@
  * must come after all other uses of its model. A call uses the threads of the library's own pool where that is free,
  * else the calling thread alone; results do not depend on it.
  *
- * The environment: SVNET_THREADS sets the number of threads to begin with, SVNET_MAX_ISA caps the instruction set of
- * svnet's own kernels (OpenBLAS, which is loaded along, takes its own from OPENBLAS_CORETYPE);
+ * The environment: SVNET_THREADS sets the number of threads to begin with, SVNET_MAX_ISA caps the instruction set;
  * svnet_model_load reports a wrong value of SVNET_MAX_ISA, the first computation one of SVNET_THREADS, both as
  * SVNET_INVALID_ARGUMENT.
  */
