@@ -6,7 +6,7 @@
 #include "io/image_file.h"
 #include "io/pose_list_file.h"
 #include "predict/half_sphere_plot.h"
-#include "predict/pose_grid.h"
+#include "view/pose_grid.h"
 #include "predict/predictor.h"
 
 namespace {

@@ -2,12 +2,11 @@
 #include <span>
 
 #include "models/image/image.h"
-#include "models/pose.h"
+#include "view/pose.h"
 
 namespace svnet {
 
-/// The half-sphere of camera poses seen from above, 512x512: the top view in the centre, the horizon at the rim,
-/// elevations evenly between (thin circles every 15°); azimuth 0° to the right, counter-clockwise (spokes every 45°).
+/// The half-sphere of camera poses seen from above (view/half_sphere_canvas.h).
 /// One dot per pose, from dark blue (the lowest score) through green to yellow (the highest); the best one is ringed in
 /// red. Of dots that overlap, the one with the higher score lies on top. Throws Error unless there are as many finite
 /// scores as poses, at least one, and all poses are in range.

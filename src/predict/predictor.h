@@ -5,8 +5,8 @@
 
 #include "io/model_file.h"
 #include "models/image/image.h"
-#include "models/pose.h"
 #include "nn/runtime/inference.h"
+#include "view/pose.h"
 
 namespace svnet {
 
@@ -26,7 +26,7 @@ class Predictor {
   Tensor embed(const Image& top) const;
 
   /// One score per pose, in order. Poses a whole turn apart have the same score. Throws Error unless features are
-  /// (1, D) finite f32, and every pose is in range (models/pose.h). A score does not depend on the
+  /// (1, D) finite f32, and every pose is in range (view/pose.h). A score does not depend on the
   /// poses that it is asked for together with.
   std::vector<float> scores(const Tensor& features, std::span<const Pose> poses) const;
 

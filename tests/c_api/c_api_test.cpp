@@ -5,7 +5,7 @@
 #include <thread>
 
 #include "base/version.h"
-#include "predict/pose_grid.h"
+#include "view/pose_grid.h"
 #include "predict/predictor.h"
 #include "small_model.h"
 #include "svnet/svnet.h"

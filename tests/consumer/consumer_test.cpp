@@ -11,8 +11,8 @@
 #include "io/image_file.h"
 #include "io/keras_graph.h"
 #include "io/view_dataset.h"
-#include "predict/pose_grid.h"
 #include "shared_folder.h"
+#include "view/pose_grid.h"
 #include "small_model.h"
 #include "temporary_folder.h"
 

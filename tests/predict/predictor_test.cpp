@@ -6,7 +6,7 @@
 #include <thread>
 
 #include "nn/graph/run.h"
-#include "predict/pose_grid.h"
+#include "view/pose_grid.h"
 #include "small_model.h"
 #include "temporary_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include "io/image_file.h"
 #include "predict/half_sphere_plot.h"
-#include "predict/pose_grid.h"
+#include "view/pose_grid.h"
 #include "predict/predictor.h"
 #include "small_model.h"
 #include "temporary_folder.h"

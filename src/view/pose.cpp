@@ -1,4 +1,4 @@
-#include "models/pose.h"
+#include "view/pose.h"
 
 #include <cmath>
 

@@ -1,0 +1,66 @@
+#include "view/camera.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/error.h"
+
+namespace svnet {
+
+std::string intrinsics_problem(const Intrinsics& camera) {
+  if (camera.width <= 0 || camera.height <= 0)
+    return joined("the picture has ", camera.width, "x", camera.height,
+                  " pixels, expected a positive width and height");
+  for (const auto& [name, value] : {std::pair("fx", camera.fx), std::pair("fy", camera.fy)})
+    if (!(std::isfinite(value) && value > 0))
+      return joined(name, " is ", value, ", expected a positive number of pixels");
+  for (const auto& [name, value, size] :
+       {std::tuple("cx", camera.cx, camera.width), std::tuple("cy", camera.cy, camera.height)})
+    if (!(value >= -0.5 && value <= static_cast<double>(size) - 0.5))
+      return joined(name, " is ", value, ", which is outside the picture of ", size, " pixels");
+  return "";
+}
+
+std::string name_of(CameraFrame frame) { return frame == CameraFrame::paper ? "paper" : "optical"; }
+
+CameraFrame camera_frame_named(std::string_view name) {
+  check(name == "paper" || name == "optical", "the camera frame '", name, "' is not known; known: paper, optical");
+  return name == "paper" ? CameraFrame::paper : CameraFrame::optical;
+}
+
+double viewing_radius_m(const Intrinsics& camera, double diagonal_m) {
+  const std::string problem = intrinsics_problem(camera);
+  check(problem.empty(), "[view] ", problem);
+  check(std::isfinite(diagonal_m) && diagonal_m > 0, "[view] the object's diagonal is ", diagonal_m,
+        " m, expected a positive length");
+  return diagonal_m / kViewShare *
+         std::max(camera.fx / static_cast<double>(camera.width), camera.fy / static_cast<double>(camera.height));
+}
+
+Eigen::Isometry3d camera_pose(const Pose& pose, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
+  const std::string problem = pose_problem(pose);
+  check(problem.empty(), "[view] ", problem);
+  check(std::isfinite(radius_m) && radius_m > 0, "[view] the radius is ", radius_m, " m, expected a positive length");
+  check(centre_m.allFinite(), "[view] the centre (", centre_m.transpose(), ") is not finite");
+  const double theta = pose.theta_deg * std::numbers::pi / 180, phi = pose.phi_deg * std::numbers::pi / 180;
+  const Eigen::Vector3d outwards(std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi));
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  result.translation() = centre_m + radius_m * outwards;
+  const Eigen::Vector3d z = -outwards, x(std::sin(theta), -std::cos(theta), 0), y = z.cross(x);
+  if (frame == CameraFrame::paper)
+    result.linear() << x, y, z;
+  else
+    result.linear() << -x, -y, z;
+  return result;
+}
+
+Eigen::Vector2d projected_px(const Intrinsics& camera, const Eigen::Vector3d& point) {
+  return {camera.cx + camera.fx * point.x() / point.z(), camera.cy + camera.fy * point.y() / point.z()};
+}
+
+Eigen::Vector3d deprojected_m(const Intrinsics& camera, double x_px, double y_px, double depth_m) {
+  return {(x_px - camera.cx) / camera.fx * depth_m, (y_px - camera.cy) / camera.fy * depth_m, depth_m};
+}
+
+}  // namespace svnet
