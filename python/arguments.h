@@ -10,7 +10,7 @@
 
 #include "base/index.h"
 #include "models/image/image.h"
-#include "models/pose.h"
+#include "view/pose.h"
 #include "semantics/distances.h"
 
 // From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.

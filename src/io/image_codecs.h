@@ -1,7 +1,10 @@
 #pragma once
 #include <cstdint>
+#include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "models/image/image.h"
 
@@ -17,6 +20,24 @@ Image decode_webp(const std::string& name, Bytes file);
 
 /// The contents of a PNG file.
 std::string encoded_png(const std::string& name, const Image& image);
+
+/// A picture of one 16-bit channel, (height, width).
+struct Grey16 {
+  Index height = 0;
+  Index width = 0;
+  std::vector<std::uint16_t> levels;
+};
+
+/// Throws Error for PNG pictures of any other kind.
+Grey16 decode_grey16_png(const std::string& name, Bytes file);
+std::string encoded_grey16_png(const std::string& name, const Grey16&);
+/// One 8-bit channel.
+std::string encoded_grey_png(const std::string& name, Index height, Index width, std::span<const std::uint8_t> levels);
+
+/// The whole file. Throws Error that names it where it cannot be read, is empty, or larger than a picture can be.
+std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
+/// Whether `expected` is at `offset`.
+bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);
 
 /// An image with room for its pixels. Throws Error above 64 megapixels.
 Image image_of_size(const std::string& name, Index height, Index width);

@@ -19,7 +19,9 @@ namespace fs = std::filesystem;
 constexpr Index kMaximumPixels = 64'000'000;
 constexpr std::uintmax_t kMaximumFileSize = std::uintmax_t{1} << 30;
 
-std::vector<std::uint8_t> contents(const fs::path& path) {
+}  // namespace
+
+std::vector<std::uint8_t> picture_contents(const fs::path& path) {
   const std::string name = path.string();
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -40,13 +42,11 @@ std::vector<std::uint8_t> contents(const fs::path& path) {
   return bytes;
 }
 
-bool has(Bytes file, std::size_t offset, std::string_view expected) {
+bool has_bytes(Bytes file, std::size_t offset, std::string_view expected) {
   return file.size() >= offset + expected.size() &&
          std::equal(expected.begin(), expected.end(), file.begin() + static_cast<std::ptrdiff_t>(offset),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
-
-}  // namespace
 
 Image image_of_size(const std::string& name, Index height, Index width) {
   check(height > 0 && width > 0, name, ": has no pixels (", width, "x", height, ")");
@@ -60,11 +60,11 @@ void fail_damaged(const std::string& name, const char* kind, const std::string& 
 }
 
 Image read_image(const fs::path& path) {
-  const std::vector<std::uint8_t> file = contents(path);
+  const std::vector<std::uint8_t> file = picture_contents(path);
   const std::string name = path.string();
-  if (has(file, 0, "\xff\xd8\xff")) return decode_jpeg(name, file);
-  if (has(file, 0, "\x89PNG\r\n\x1a\n")) return decode_png(name, file);
-  if (has(file, 0, "RIFF") && has(file, 8, "WEBP")) return decode_webp(name, file);
+  if (has_bytes(file, 0, "\xff\xd8\xff")) return decode_jpeg(name, file);
+  if (has_bytes(file, 0, "\x89PNG\r\n\x1a\n")) return decode_png(name, file);
+  if (has_bytes(file, 0, "RIFF") && has_bytes(file, 8, "WEBP")) return decode_webp(name, file);
   fail(name, ": is not a PNG, JPEG or WebP picture, whatever its name says");
 }
 

@@ -1,3 +1,4 @@
+#include <bit>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
@@ -49,6 +50,21 @@ class PngDecoder {
   Index width() const { return png_get_image_width(png_, info_); }
   const char* reason() const { return message_; }
 
+  bool is_grey16() const {
+    return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png_, info_) == 16;
+  }
+
+  /// rows: the addresses of height rows of width 16-bit numbers.
+  bool read_grey16(std::uint8_t** rows) {
+    if (setjmp(back_) != 0) return false;
+    if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
+    png_set_interlace_handling(png_);
+    png_read_update_info(png_, info_);
+    png_read_image(png_, rows);
+    png_read_end(png_, nullptr);
+    return true;
+  }
+
   /// rows: the addresses of height rows of (width, 3) bytes.
   bool read_pixels(std::uint8_t** rows) {
     if (setjmp(back_) != 0) return false;
@@ -89,20 +105,52 @@ Image decode_png(const std::string& name, Bytes file) {
   return image;
 }
 
-std::string encoded_png(const std::string& name, const Image& image) {
-  check(image.height > 0 && image.width > 0 && static_cast<Index>(image.rgb.size()) == image.height * image.width * 3,
-        name, ": cannot be written: a ", image.height, "x", image.width, "x3 image has ", image.rgb.size(), " values");
+Grey16 decode_grey16_png(const std::string& name, Bytes file) {
+  PngDecoder decoder(file);
+  if (!decoder.read_header()) fail_damaged(name, "PNG", decoder.reason());
+  check(decoder.is_grey16(), name, ": is a PNG of another kind, expected 16-bit grey, depth in millimetres");
+  image_of_size(name, decoder.height(), decoder.width());
+  Grey16 image{decoder.height(), decoder.width(), {}};
+  image.levels.resize(static_cast<std::size_t>(image.height * image.width));
+  std::vector<std::uint8_t*> rows(static_cast<std::size_t>(image.height));
+  for (Index row = 0; row < image.height; ++row)
+    rows[row] = reinterpret_cast<std::uint8_t*>(image.levels.data() + row * image.width);
+  if (!decoder.read_grey16(rows.data())) fail_damaged(name, "PNG", decoder.reason());
+  return image;
+}
+
+namespace {
+
+/// `format`: one of libpng's simplified formats; `pixels` fit it. The linear ones are written as they are.
+std::string encoded(const std::string& name, Index height, Index width, png_uint_32 format, const void* pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;
-  png.format = PNG_FORMAT_RGB;
-  png.height = static_cast<png_uint_32>(image.height);
-  png.width = static_cast<png_uint_32>(image.width);
+  png.format = format;
+  png.height = static_cast<png_uint_32>(height);
+  png.width = static_cast<png_uint_32>(width);
+  png.flags = PNG_IMAGE_FLAG_FAST;
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png);
   std::string file(size, '\0');
-  check(png_image_write_to_memory(&png, file.data(), &size, 0, image.rgb.data(), 0, nullptr) != 0, name,
+  check(png_image_write_to_memory(&png, file.data(), &size, 0, pixels, 0, nullptr) != 0, name,
         ": cannot be written: ", png.message);
   file.resize(size);
   return file;
+}
+
+}  // namespace
+
+std::string encoded_grey16_png(const std::string& name, const Grey16& image) {
+  return encoded(name, image.height, image.width, PNG_FORMAT_LINEAR_Y, image.levels.data());
+}
+
+std::string encoded_grey_png(const std::string& name, Index height, Index width, std::span<const std::uint8_t> levels) {
+  return encoded(name, height, width, PNG_FORMAT_GRAY, levels.data());
+}
+
+std::string encoded_png(const std::string& name, const Image& image) {
+  check(image.height > 0 && image.width > 0 && static_cast<Index>(image.rgb.size()) == image.height * image.width * 3,
+        name, ": cannot be written: a ", image.height, "x", image.width, "x3 image has ", image.rgb.size(), " values");
+  return encoded(name, image.height, image.width, PNG_FORMAT_RGB, image.rgb.data());
 }
 
 }  // namespace svnet

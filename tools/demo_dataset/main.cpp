@@ -4,35 +4,11 @@
 #include "base/parallel.h"
 #include "command/command.h"
 #include "demo_dataset/picture.h"
+#include "io/fresh_folder.h"
 #include "io/image_file.h"
 
 namespace svnet::demo {
 namespace {
-
-/// A folder that is filled under another name and appears as a whole, or is removed.
-class FreshFolder {
- public:
-  explicit FreshFolder(const std::filesystem::path& path)
-      : path_(path.has_filename() ? path : path.parent_path()), partial_(path_) {
-    check(!std::filesystem::exists(path_) || std::filesystem::is_empty(path_), path_.string(),
-          ": exists already, remove it or choose another folder");
-    partial_ += ".partial";
-    std::filesystem::remove_all(partial_);
-    std::filesystem::create_directories(partial_);
-  }
-  ~FreshFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(partial_, ignored);
-  }
-  FreshFolder(const FreshFolder&) = delete;
-  FreshFolder& operator=(const FreshFolder&) = delete;
-
-  const std::filesystem::path& path() const { return partial_; }
-  void keep() { std::filesystem::rename(partial_, path_); }
-
- private:
-  std::filesystem::path path_, partial_;
-};
 
 /// The directions (θ, φ) of the paper: θ every 45° but 270°, φ every 15° from 45° to 75°, and the top view.
 std::vector<std::pair<int, int>> view_directions() {

@@ -1,0 +1,102 @@
+#include "io/mesh_file.h"
+
+#include <assimp/Importer.hpp>
+#include <cmath>
+#include <fstream>
+
+#include <assimp/material.h>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+
+#include "base/error.h"
+#include "image_codecs.h"
+#include "io/image_file.h"
+#include "printable.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The texture `reference` of the scene: embedded, or a file beside the mesh.
+Image texture(const aiScene& scene, const fs::path& mesh, const std::string& reference) {
+  const std::string name = mesh.string() + ": texture '" + printable(reference) + "'";
+  if (const aiTexture* embedded = scene.GetEmbeddedTexture(reference.c_str())) {
+    check(embedded->mHeight == 0, name, ": is stored as bare pixels, expected a PNG or JPEG inside");
+    const Bytes bytes(reinterpret_cast<const std::uint8_t*>(embedded->pcData), embedded->mWidth);
+    if (has_bytes(bytes, 0, "\xff\xd8\xff")) return decode_jpeg(name, bytes);
+    check(has_bytes(bytes, 0, "\x89PNG\r\n\x1a\n"), name, ": is neither a PNG nor a JPEG picture");
+    return decode_png(name, bytes);
+  }
+  // Only from the mesh's own folder: a file must not make us read any path of this machine.
+  std::string file = reference;
+  for (char& c : file)
+    if (c == '\\') c = '/';
+  return read_image(mesh.parent_path() / fs::path(file).filename());
+}
+
+Material material_of(const aiScene& scene, const aiMaterial& from, const fs::path& path, Mesh& mesh) {
+  Material material;
+  aiColor3D colour(0.6f, 0.6f, 0.6f);
+  if (from.Get(AI_MATKEY_BASE_COLOR, colour) != AI_SUCCESS) from.Get(AI_MATKEY_COLOR_DIFFUSE, colour);
+  material.colour = material.second = Vec3(colour.r, colour.g, colour.b).cwiseMax(0.0f).cwiseMin(1.0f);
+  float metallic = 0;
+  if (from.Get(AI_MATKEY_METALLIC_FACTOR, metallic) == AI_SUCCESS) material.metal = metallic > 0.5f;
+  aiString reference;
+  for (const aiTextureType kind : {aiTextureType_BASE_COLOR, aiTextureType_DIFFUSE}) {
+    if (material.texture == Texture::picture || from.GetTexture(kind, 0, &reference) != AI_SUCCESS) continue;
+    material.texture = Texture::picture;
+    material.picture = static_cast<int>(mesh.pictures.size());
+    mesh.pictures.push_back(texture(scene, path, reference.C_Str()));
+  }
+  return material;
+}
+
+}  // namespace
+
+Mesh read_mesh(const fs::path& path, double metres_per_unit) {
+  constexpr std::size_t kMostTriangles = 5'000'000;
+  const std::string name = path.string();
+  check(std::ifstream(path, std::ios::binary).good() && !fs::is_directory(path), name,
+        ": cannot be read; expected a mesh (OBJ, PLY, STL or GLB)");
+  Assimp::Importer importer;
+  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
+  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_PreTransformVertices |
+                                                     aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
+  check(scene != nullptr, name, ": is no mesh that can be read: ", printable(importer.GetErrorString()));
+  Mesh mesh;
+  for (unsigned i = 0; i < scene->mNumMaterials; ++i)
+    mesh.materials.push_back(material_of(*scene, *scene->mMaterials[i], path, mesh));
+  for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
+    const aiMesh& part = *scene->mMeshes[m];
+    if (part.mPrimitiveTypes != aiPrimitiveType_TRIANGLE) continue;
+    const auto base = static_cast<std::uint32_t>(mesh.points.size());
+    for (unsigned v = 0; v < part.mNumVertices; ++v) {
+      const aiVector3D& p = part.mVertices[v];
+      const Vec3 point = Vec3(p.x, p.y, p.z) * static_cast<float>(metres_per_unit);
+      check(point.allFinite(), name, ": vertex ", v, " of part ", m, " is not finite");
+      mesh.points.push_back(point);
+    }
+    check(mesh.triangles.size() + part.mNumFaces <= kMostTriangles, name, ": has more than ", kMostTriangles,
+          " triangles; make it simpler");
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      if (face.mNumIndices != 3) continue;
+      Mesh::Triangle triangle{{}, static_cast<int>(part.mMaterialIndex)};
+      std::array<Vec2, 3> uv;
+      for (unsigned k = 0; k < 3; ++k) {
+        triangle.corner[k] = base + face.mIndices[k];
+        const aiVector3D at = part.HasTextureCoords(0) ? part.mTextureCoords[0][face.mIndices[k]] : aiVector3D();
+        uv[k] = Vec2(at.x, at.y).allFinite() ? Vec2(at.x, at.y) : Vec2(0, 0);
+      }
+      mesh.triangles.push_back(triangle);
+      mesh.uv.push_back(uv);
+    }
+  }
+  check(!mesh.triangles.empty(), name, ": holds no triangles");
+  if (mesh.pictures.empty()) mesh.uv.clear();
+  shade_smoothly(mesh);
+  return mesh;
+}
+
+}  // namespace svnet

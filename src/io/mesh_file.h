@@ -1,0 +1,13 @@
+#pragma once
+#include <filesystem>
+
+#include "view/render/mesh.h"
+
+namespace svnet {
+
+/// A mesh with its colours and textures (OBJ, PLY, STL or GLB; textures embedded or beside the file), `metres_per_unit`
+/// long per unit, with normals. Throws Error, one line that names the file, where it cannot be read, holds no triangles
+/// or numbers that are not finite, is larger than 5 million triangles, or a texture cannot be read.
+Mesh read_mesh(const std::filesystem::path& path, double metres_per_unit = 1);
+
+}  // namespace svnet

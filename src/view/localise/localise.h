@@ -1,0 +1,44 @@
+#pragma once
+#include <Eigen/Geometry>
+#include <string>
+#include <vector>
+
+#include "models/image/depth_image.h"
+#include "models/image/image.h"
+#include "view/camera.h"
+
+// Where an object is, and how large: section 3 of the paper, on a picture of the empty table and one with the object,
+// taken from the same place.
+namespace svnet {
+
+struct RgbdView {
+  const Image& rgb;
+  const DepthImage& depth;
+};
+
+struct LocaliseOptions {
+  bool take_largest = false;  // of several objects, rather than to refuse them
+  bool keep_steps = false;    // the pictures for the eye
+};
+
+struct LocalisedObject {
+  Eigen::Vector3d centre_m;  // GC: the middle of the smallest circle around the contour, half way up; world
+  double length_m,
+      width_m;        // the longer and the shorter side of the smallest rectangle around the contour in the xy plane
+  double height_m;    // above the table
+  double yaw_rad;     // of the longer side from the world's x axis, in [0, π)
+  double diagonal_m;  // d = √(length² + width² + height²)
+  /// In the order of the work: difference, foreground, contour (with the rectangle and GC), height.
+  std::vector<std::pair<std::string, Image>> steps;
+};
+
+/// Finds the object. What changed in colour belongs to it, unless it only got darker and lies no higher than before (a
+/// shadow), and so does what rose by more than 4 mm. Slow changes of the light and sensor noise do not matter,
+/// nor do holes in depth. `camera_to_world` is the optical frame's pose in a world whose z axis is vertical.
+///
+/// Throws Error where pictures do not fit the camera, nothing is found, the object is cut off by the border, or there
+/// are several objects.
+LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
+                         const RgbdView& current, const LocaliseOptions& = {});
+
+}  // namespace svnet

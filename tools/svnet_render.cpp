@@ -1,0 +1,213 @@
+// svnet-render: a collection of views in simulation, as a robot with an RGB-D camera would make it.
+#include <algorithm>
+#include <fstream>
+#include <mutex>
+#include <nlohmann/json.hpp>
+
+#include "base/parallel.h"
+#include "base/text.h"
+#include "base/version.h"
+#include "command/command.h"
+#include "io/camera_file.h"
+#include "io/depth_file.h"
+#include "io/fresh_folder.h"
+#include "io/image_file.h"
+#include "io/mesh_file.h"
+#include "view/render/catalogue.h"
+#include "view/render/collection.h"
+
+namespace {
+
+using namespace svnet;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  fs::path output, meshes;
+  std::vector<std::string> categories;
+  Index objects = kDesigns, poses = 3, size = 224;
+  std::uint64_t seed = 1;
+  double metres_per_unit = 1;
+};
+
+/// One object to collect: a design of the catalogue, or a mesh file.
+struct Source {
+  std::string category, object;
+  Index design = 0;
+  fs::path file;
+};
+
+std::vector<fs::path> sorted_entries(const fs::path& folder) {
+  std::error_code error;
+  std::vector<fs::path> entries;
+  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
+    if (!entry->path().filename().string().starts_with('.')) entries.push_back(entry->path());
+  check(!error, folder.string(), ": cannot be read: ", error.message());
+  std::sort(entries.begin(), entries.end(), [](const fs::path& a, const fs::path& b) {
+    return natural_less(a.filename().string(), b.filename().string());
+  });
+  return entries;
+}
+
+/// FOLDER/CATEGORY/NAME.obj (or .ply, .stl, .glb): each mesh is an object named like its file.
+std::vector<Source> sources_in(const Options& options) {
+  std::vector<Source> sources;
+  for (const fs::path& category : sorted_entries(options.meshes)) {
+    if (!fs::is_directory(category)) continue;
+    const std::string name = category.filename().string();
+    if (!options.categories.empty() &&
+        std::find(options.categories.begin(), options.categories.end(), name) == options.categories.end())
+      continue;
+    for (const fs::path& file : sorted_entries(category)) {
+      std::string kind = file.extension().string();
+      std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+      if (kind == ".obj" || kind == ".ply" || kind == ".stl" || kind == ".glb")
+        sources.push_back({name, file.stem().string(), 0, file});
+    }
+  }
+  check(!sources.empty(), options.meshes.string(),
+        ": holds no meshes; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it");
+  return sources;
+}
+
+std::vector<Source> sources_of_catalogue(const Options& options) {
+  const auto& names = catalogue_names();
+  for (const std::string& category : options.categories)
+    check(std::find(names.begin(), names.end(), category) != names.end(), "there is no category '", category, "'",
+          suggestion(category, names));
+  std::vector<Source> sources;
+  for (const std::string& name : options.categories.empty() ? names : options.categories)
+    for (Index object = 0; object < options.objects; ++object)
+      sources.push_back({name, std::to_string(object + 1), object, {}});
+  return sources;
+}
+
+void write_text(const fs::path& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  check(static_cast<bool>(file.flush()), path.string(), ": cannot be written; is the disk full?");
+}
+
+/// Lays the object down, finds it, and writes its views into `folder`, the rest into `extra`. The manifest's entry.
+Json collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
+             const fs::path& extra) {
+  constexpr std::uint32_t kAttempts = 8;
+  fs::create_directories(folder);
+  fs::create_directories(extra);
+  for (std::uint32_t attempt = 0;; ++attempt) {
+    const std::uint64_t seed = options.seed * 1009 + attempt;
+    const PosedObject posed = pose_object(mesh, pose, seed, number);
+    const Overview overview = take_overview(posed, seed, number);
+    LocalisedObject object;
+    try {
+      object =
+          localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
+                   {overview.current.rgb, overview.current.depth});
+    } catch (const Error& error) {
+      // As a robot's keeper would: put it elsewhere, under another light.
+      check(attempt + 1 < kAttempts, "pose ", pose + 1, " was not found in ", kAttempts, " tries: ", error.what());
+      continue;
+    }
+    write_png(extra / "overview_background.png", overview.background.rgb);
+    write_depth_png(extra / "overview_background_depth.png", overview.background.depth);
+    write_png(extra / "overview.png", overview.current.rgb);
+    write_depth_png(extra / "overview_depth.png", overview.current.depth);
+    const Scene scene(&mesh, posed.object_to_world, posed.setting);
+    Json views = Json::array();
+    for (std::size_t view = 0; view < posed.views.size(); ++view) {
+      const TakenView taken = take_view(posed, scene, object, options.size, seed, number, view);
+      const Pose& from = posed.views[view];
+      const std::string name =
+          std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
+      write_png(folder / (name + ".png"), taken.picture.rgb);
+      write_depth_png(extra / (name + "_depth.png"), taken.picture.depth);
+      write_grey_png(extra / (name + "_mask.png"), taken.shot.height, taken.shot.width, taken.shot.mask);
+      views.push_back(name);
+    }
+    return Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
+                {"length_m", object.length_m},
+                {"width_m", object.width_m},
+                {"height_m", object.height_m},
+                {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
+                {"tries", attempt + 1},
+                {"views", views}};
+  }
+}
+
+void render(const Options& options, Console& console) {
+  FreshFolder folder(options.output);
+  const std::vector<Source> sources = options.meshes.empty() ? sources_of_catalogue(options) : sources_in(options);
+  const auto total = static_cast<Index>(sources.size()) * options.poses;
+  check(total < 0x10000, "there are ", total, " objects and poses, more than 65535; take fewer");
+  std::vector<Json> entries(static_cast<std::size_t>(total));
+  Progress progress(console.messages(), "poses", total);
+  // A few poses of each thread between two reports. Each is a piece of work of its own, with its own random numbers.
+  const Index block = 4 * Parallel::shared().threads();
+  for (Index first = 0; first < total; first += block) {
+    const Index count = std::min(block, total - first);
+    Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
+      const Index number = first + begin, pose = number % options.poses;
+      const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
+      const fs::path where = fs::path(source.category) / source.object / std::to_string(pose + 1);
+      try {
+        const Mesh mesh = source.file.empty() ? catalogue_object(source.category, source.design, options.seed)
+                                              : read_mesh(source.file, options.metres_per_unit);
+        entries[static_cast<std::size_t>(number)] = collect(mesh, pose, options, static_cast<std::uint32_t>(number),
+                                                            folder.path() / where, folder.path() / "_extra" / where);
+      } catch (const Error& error) {
+        if (source.file.empty()) fail(where.string(), ": ", error.what());
+        const std::string text = error.what();
+        fail(text.starts_with(source.file.string()) ? text : source.file.string() + ": " + text);
+      }
+    });
+    progress.update(first + count);
+  }
+
+  Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options.seed}, {"size_px", options.size}};
+  Index pictures = 0;
+  for (Index number = 0; number < total; ++number) {
+    const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
+    Json& entry = entries[static_cast<std::size_t>(number)];
+    pictures += static_cast<Index>(entry.at("views").size());
+    manifest["poses"][source.category][source.object][std::to_string(number % options.poses + 1)] = std::move(entry);
+  }
+  write_text(folder.path() / "manifest.json", manifest.dump(1) + "\n");
+  write_text(folder.path() / "_extra" / "overview_camera.json",
+             camera_json({overview_camera(), overview_camera_to_world()}));
+  write_text(folder.path() / "_extra" / "view_camera.json", camera_json({view_camera(options.size), {}}));
+  folder.keep();
+  console.result(joined(pictures, " pictures of ", total, " poses in ", options.output.string()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Command command("svnet-render",
+                  "Collects views of household objects and tools in simulation, as a robot with an RGB-D camera would: "
+                  "each object rests on a table, is localised in an overview, and is seen from the paper's viewpoints. "
+                  "Writes CATEGORY/OBJECT/POSE/PHI_THETA.png, manifest.json, and under _extra/ the overviews, depth "
+                  "(16-bit PNG, millimetres) and masks. The same seed gives the same pictures.",
+                  "svnet-render --output runs/rendered\n"
+                  "svnet-render --output runs/tools --categories hammer,wrench,pliers --objects 3 --size 160\n"
+                  "svnet-render --output runs/mine --meshes meshes --unit 0.001");
+  Options options;
+  std::string categories;
+  CLI::App& app = command.app();
+  app.add_option("--output", options.output, "The folder to make")->required();
+  app.add_option("--categories", options.categories,
+                 "Some categories, with commas between them (all " + std::to_string(catalogue_names().size()) + ": " +
+                     joined_with(", ", catalogue_names()) + ")")
+      ->delimiter(',');
+  app.add_option("--objects", options.objects, "Objects of each category (5; further ones are mixtures of the first 5)")
+      ->check(CLI::Range(1, 999));
+  app.add_option("--poses", options.poses, "Poses of each object (3)")->check(CLI::Range(1, 99));
+  app.add_option("--size", options.size, "Height and width of the pictures in pixels (224)")
+      ->check(CLI::Range(32, 2048));
+  app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)");
+  auto* meshes = app.add_option("--meshes", options.meshes,
+                                "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb)");
+  app.add_option("--unit", options.metres_per_unit, "Metres per unit of the meshes (1)")
+      ->check(CLI::PositiveNumber)
+      ->needs(meshes);
+  return command.run(argc, argv, [&](Console& console) { render(options, console); });
+}
