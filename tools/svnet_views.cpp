@@ -1,0 +1,196 @@
+// svnet-views: where to bring the camera to see an object, from its place and size or from RGB-D pictures of it.
+#include <array>
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "command/command.h"
+#include "io/atomic_file.h"
+#include "io/camera_file.h"
+#include "io/depth_file.h"
+#include "io/image_file.h"
+#include "io/pose_list_file.h"
+#include "view/localise/localise.h"
+#include "view/pose_grid.h"
+#include "view/pose_plot.h"
+#include "view/reachability.h"
+
+namespace {
+
+using namespace svnet;
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+
+struct Options {
+  fs::path camera, poses, reachable, csv, json, plot, steps;
+  std::vector<fs::path> background, current;
+  std::vector<double> centre_m;
+  double diagonal_m = 0, lowest_phi_deg = 0;
+  Index fibonacci = 0;
+  bool largest = false;
+  std::string frame = "optical";
+};
+
+struct CameraView {
+  Pose pose;
+  Eigen::Isometry3d camera_to_world;
+};
+
+/// The numbers of a view, by name, in the order of the columns.
+std::vector<std::pair<const char*, double>> fields(const CameraView& view) {
+  const Eigen::Vector3d t = view.camera_to_world.translation();
+  Eigen::Quaterniond q(view.camera_to_world.linear());
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  constexpr double kRadian = std::numbers::pi / 180;
+  return {{"theta", view.pose.theta_deg},
+          {"phi", view.pose.phi_deg},
+          {"theta_rad", view.pose.theta_deg * kRadian},
+          {"phi_rad", view.pose.phi_deg * kRadian},
+          {"x_m", t.x()},
+          {"y_m", t.y()},
+          {"z_m", t.z()},
+          {"qx", q.x()},
+          {"qy", q.y()},
+          {"qz", q.z()},
+          {"qw", q.w()}};
+}
+
+std::string csv_text(const std::vector<CameraView>& views) {
+  std::ostringstream text;
+  text << std::setprecision(17);
+  const char* separator = "";
+  for (const auto& [name, unused] : fields(views.front())) text << separator << name, separator = ",";
+  text << '\n';
+  for (const CameraView& view : views) {
+    separator = "";
+    for (const auto& [unused, value] : fields(view)) text << separator << value, separator = ",";
+    text << '\n';
+  }
+  return text.str();
+}
+
+Json object_json(const LocalisedObject& object) {
+  return {{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
+          {"length_m", object.length_m},
+          {"width_m", object.width_m},
+          {"height_m", object.height_m},
+          {"yaw_rad", object.yaw_rad}};
+}
+
+LocalisedObject find_object(const Options& options, const CameraFile& camera) {
+  check(camera.camera_to_world.has_value(), options.camera.string(),
+        ": the key 'pose' is missing, where the camera was for the pictures");
+  const Image before = read_image(options.background[0]), after = read_image(options.current[0]);
+  const DepthImage depth_before = read_depth(options.background[1]), depth_after = read_depth(options.current[1]);
+  LocaliseOptions how{options.largest, !options.steps.empty()};
+  const LocalisedObject object =
+      localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
+  if (!options.steps.empty()) fs::create_directories(options.steps);
+  for (const auto& [name, picture] : object.steps) write_png(options.steps / (name + ".png"), picture);
+  return object;
+}
+
+void write_views(const Options& options, Console& console) {
+  const CameraFile camera = read_camera(options.camera);
+  const CameraFrame frame = camera_frame_named(options.frame);
+  Json document;
+  Eigen::Vector3d centre;
+  double diagonal_m = options.diagonal_m;
+  if (!options.current.empty()) {
+    const LocalisedObject object = find_object(options, camera);
+    document["object"] = object_json(object);
+    centre = object.centre_m;
+    diagonal_m = object.diagonal_m;
+  } else {
+    centre = {options.centre_m[0], options.centre_m[1], options.centre_m[2]};
+    document["object"] = {{"centre_m", options.centre_m}};
+  }
+  const double radius_m = viewing_radius_m(camera.intrinsics, diagonal_m);
+  document["diagonal_m"] = diagonal_m;
+  document["radius_m"] = radius_m;
+  document["frame"] = name_of(frame);
+
+  std::vector<Pose> poses = paper_grid();
+  if (!options.poses.empty()) poses = read_pose_list(options.poses);
+  if (options.fibonacci > 0) poses = fibonacci_half_sphere(options.fibonacci, options.lowest_phi_deg);
+  const Reachable reachable = options.reachable.empty() ? [](const Pose&, const Eigen::Isometry3d&) { return true; }
+                                                        : listed_poses(read_pose_list(options.reachable));
+  std::vector<CameraView> views;
+  std::vector<bool> reached;
+  document["views"] = Json::array();
+  for (const Pose& pose : poses) {
+    reached.push_back(reachable(pose, camera_pose(pose, radius_m, centre, CameraFrame::optical)));
+    if (!reached.back()) continue;
+    views.push_back({pose, camera_pose(pose, radius_m, centre, frame)});
+    Json entry;
+    for (const auto& [name, value] : fields(views.back())) entry[name] = value;
+    document["views"].push_back(std::move(entry));
+  }
+  check(!views.empty(), options.reachable.string(), ": none of the ", poses.size(), " poses is reachable");
+  if (!options.csv.empty()) write_atomically(options.csv, csv_text(views));
+  if (!options.json.empty()) write_atomically(options.json, document.dump(2) + "\n");
+  if (!options.plot.empty()) write_png(options.plot, pose_plot(poses, reached));
+  if (options.csv.empty() && options.json.empty()) {
+    std::string text = csv_text(views);
+    text.pop_back();
+    console.result(text);
+  } else {
+    console.result(
+        joined(views.size(), " views at ", radius_m, " m from (", centre.x(), ", ", centre.y(), ", ", centre.z(), ")"));
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Command command(
+      "svnet-views",
+      "Says where to bring the camera to see an object from the half-sphere around it, at the distance at "
+      "which it fills 70 % of the picture. The object's place and size are given, or measured in RGB-D "
+      "pictures of the empty table and of the object. Prints CSV: theta and phi in degrees and radians, the "
+      "camera's position in metres, its orientation as a quaternion (docs/camera-convention.md).",
+      "svnet-views camera.json --centre 0.4 0 0.05 --diagonal 0.2 --json views.json --plot views.png\n"
+      "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
+  Options options;
+  CLI::App& app = command.app();
+  app.add_option(
+         "CAMERA", options.camera,
+         "JSON: width, height, fx, fy, cx, cy in pixels; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of "
+         "the optical frame in the world, z upwards)")
+      ->required();
+  auto* centre = app.add_option("--centre", options.centre_m, "The object's geometric centre in the world, metres")
+                     ->expected(3)
+                     ->type_name("X Y Z");
+  auto* diagonal = app.add_option("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres")
+                       ->check(CLI::PositiveNumber);
+  centre->needs(diagonal);
+  diagonal->needs(centre);
+  auto* background = app.add_option("--background", options.background,
+                                    "The empty table: a picture, and depth as 16-bit PNG (mm) or .npy (m)")
+                         ->expected(2);
+  auto* current = app.add_option("--current", options.current, "The same with the object")->expected(2);
+  background->needs(current)->excludes(centre);
+  current->needs(background);
+  app.add_flag("--largest", options.largest, "Of several objects take the largest")->needs(current);
+  app.add_option("--steps", options.steps, "A folder for pictures of each step of the localisation")->needs(current);
+  auto* poses = app.add_option("--poses", options.poses, "CSV with the header theta,phi in place of the paper's grid");
+  auto* fibonacci =
+      app.add_option("--fibonacci", options.fibonacci, "N poses spread evenly over the half-sphere instead")
+          ->check(CLI::Range(1, 100000))
+          ->excludes(poses);
+  app.add_option("--lowest-phi", options.lowest_phi_deg, "Their lowest elevation in degrees (0)")->needs(fibonacci);
+  app.add_option("--reachable", options.reachable,
+                 "CSV with the header theta,phi of the poses that the robot can reach");
+  app.add_option("--frame", options.frame,
+                 "Axes of the orientation: optical (ROS: z forward, x right, y down; default) or "
+                 "paper (z forward, x left, y up)")
+      ->check(CLI::IsMember({"optical", "paper"}));
+  app.add_option("--csv", options.csv, "Writes CSV to a file");
+  app.add_option("--json", options.json, "Writes JSON to a file");
+  app.add_option("--plot", options.plot, "Writes a picture of the half-sphere from above: filled dots can be reached");
+  return command.run(argc, argv, [&](Console& console) {
+    if (options.current.empty() && options.centre_m.empty())
+      wrong_usage("either --centre and --diagonal, or --background and --current");
+    write_views(options, console);
+  });
+}
