@@ -27,4 +27,12 @@ void Clusterer::cluster(const DistanceMatrix& distances, std::span<const std::in
     std::get<KMeans>(algorithm_).cluster(distances, rows, k, RandomStream(seed, Stream::kmeans, number), labels);
 }
 
+void Clusterer::cluster(const LowerTriangle& distances, Index k, std::uint64_t seed, std::uint64_t number,
+                        std::span<std::int32_t> labels) {
+  if (auto* agglomerative = std::get_if<Agglomerative>(&algorithm_))
+    agglomerative->cluster(distances, k, labels);
+  else
+    std::get<KMeans>(algorithm_).cluster(distances, k, RandomStream(seed, Stream::kmeans, number), labels);
+}
+
 }  // namespace svnet

@@ -30,6 +30,9 @@ class Clusterer {
   /// numbers of its own. Allocates nothing. Throws Error for k outside [1, rows.size()].
   void cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::uint64_t seed,
                std::uint64_t number, std::span<std::int32_t> labels);
+  /// The same of points whose distances are already together.
+  void cluster(const LowerTriangle& distances, Index k, std::uint64_t seed, std::uint64_t number,
+               std::span<std::int32_t> labels);
 
  private:
   std::variant<Agglomerative, KMeans> algorithm_;

@@ -40,6 +40,8 @@ void ClusteringProblems::index_views(std::span<const std::int64_t> category, std
     return std::tie(category[a], object[a], pose[a], a) < std::tie(category[b], object[b], pose[b], b);
   });
   pose_of_view_.resize(views_.size());
+  place_.resize(views_.size());
+  category_of_view_.resize(views_.size());
   const auto next = [](std::vector<Range>& ranges, std::size_t first) {
     ranges.push_back({static_cast<std::int32_t>(first), 0});
   };
@@ -62,6 +64,8 @@ void ClusteringProblems::index_views(std::span<const std::int64_t> category, std
     }
     ++pose_.back().count;
     pose_of_view_[view] = static_cast<std::int32_t>(pose_.size() - 1);
+    category_of_view_[view] = static_cast<std::int32_t>(category_.size() - 1);
+    place_[view] = static_cast<std::int32_t>(i);
   }
 }
 

@@ -58,6 +58,12 @@ class ClusteringProblems {
     return {views_.data() + pose_[pose].first, static_cast<std::size_t>(pose_[pose].count)};
   }
 
+  /// Views sorted by category, object, pose and row: the place of a view, the view at a place, its category's number in
+  /// this order.
+  std::int32_t place_of_view(Index view) const { return place_[view]; }
+  std::int32_t view_at(Index place) const { return views_[place]; }
+  std::int32_t category_of_view(Index view) const { return category_of_view_[view]; }
+
   /// The share of all problems that contain the view; 0 where its category is excluded.
   double inclusion_probability(Index view) const { return inclusion_[view]; }
   /// Whether a problem may hold the view together with another object of its category.
@@ -81,6 +87,7 @@ class ClusteringProblems {
   std::vector<Range> object_;                       // poses of each object
   std::vector<Range> pose_;                         // entries of views_
   std::vector<std::int32_t> views_, pose_of_view_;  // rows sorted by pose; poses by row
+  std::vector<std::int32_t> place_, category_of_view_;  // by row
   std::vector<std::int32_t> included_;              // categories that are not excluded
   std::vector<double> inclusion_;                   // per view
   std::vector<std::uint8_t> may_have_partner_;      // per view

@@ -98,21 +98,10 @@ void distance_tile(const CentredFeatures<T>& x, Index i0, Index j0, TileScratch&
 
 }  // namespace
 
-void DistanceMatrix::Free::operator()(float* values) const { std::free(values); }
-
-DistanceMatrix::DistanceMatrix(Index n) : size_(n), stride_((n + 15) / 16 * 16) {
-  check(n >= 0, "[distances] ", n, " rows");
-  constexpr std::size_t kHugePage = std::size_t{1} << 21;
-  const std::size_t bytes = static_cast<std::size_t>(size_) * stride_ * sizeof(float);
-  const std::size_t alignment = bytes < kHugePage ? 64 : kHugePage;
-  const std::size_t rounded = std::max<std::size_t>((bytes + alignment - 1) / alignment, 1) * alignment;
-  values_.reset(static_cast<float*>(std::aligned_alloc(alignment, rounded)));
-  check(values_ != nullptr, "[distances] no memory for the distances of ", n, " rows (", bytes >> 20,
-        " MiB); use fewer rows");
-  // Problems read the matrix at random: with small pages most reads would also miss the TLB. A refusal changes nothing.
-  if (alignment == kHugePage) (void)madvise(values_.get(), rounded, MADV_HUGEPAGE);
-  std::fill_n(values_.get(), rounded / sizeof(float), 0.0f);
-}
+DistanceMatrix::DistanceMatrix(Index n)
+    : size_(n),
+      stride_((n + 15) / 16 * 16),
+      values_((check(n >= 0, "[distances] ", n, " rows"), static_cast<std::size_t>(n * stride_))) {}
 
 template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel) {

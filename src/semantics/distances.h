@@ -1,8 +1,7 @@
 #pragma once
-#include <memory>
-
 #include "base/index.h"
 #include "base/parallel.h"
+#include "semantics/aligned_array.h"
 
 namespace svnet {
 
@@ -13,16 +12,13 @@ class DistanceMatrix {
   explicit DistanceMatrix(Index n);
 
   Index size() const { return size_; }
-  const float* row(Index i) const { return values_.get() + i * stride_; }
-  float* row(Index i) { return values_.get() + i * stride_; }
+  const float* row(Index i) const { return values_.data() + i * stride_; }
+  float* row(Index i) { return values_.data() + i * stride_; }
   float operator()(Index i, Index j) const { return row(i)[j]; }
 
  private:
-  struct Free {
-    void operator()(float* values) const;
-  };
   Index size_, stride_;
-  std::unique_ptr<float[], Free> values_;
+  AlignedArray<float> values_;
 };
 
 /// The squared distances between the rows of features (n, dimension), float or double. Features are centred by their

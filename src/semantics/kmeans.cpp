@@ -25,7 +25,7 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
       max_clusters_(max_clusters),
       dimension_(dimension),
       options_(options),
-      distance_(static_cast<std::size_t>(max_points * max_points)),
+      distance_(max_points),
       initial_(max_clusters),
       closest_(max_points),
       cumulative_(max_points),
@@ -48,7 +48,54 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
 
 double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                        RandomStream random, std::span<std::int32_t> labels) {
-  gather(distances, rows, k, labels.size());
+  check_sizes(static_cast<Index>(rows.size()), k, labels.size());
+  distance_.gather(distances, rows);
+  start(static_cast<Index>(rows.size()), k);
+  return best_run(random, labels);
+}
+
+double KMeans::cluster(const LowerTriangle& distances, Index k, RandomStream random, std::span<std::int32_t> labels) {
+  check_sizes(distances.points, k, labels.size());
+  distance_.copy(distances);
+  start(distances.points, k);
+  return best_run(random, labels);
+}
+
+double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
+                        std::span<const std::int32_t> initial, std::span<std::int32_t> labels) {
+  const auto n = static_cast<Index>(rows.size()), k = static_cast<Index>(initial.size());
+  check_sizes(n, k, labels.size());
+  for (std::int32_t point : initial)
+    check(point >= 0 && point < n, "[kmeans] initial centre ", point, " is not one of the ", n, " points");
+  distance_.gather(distances, rows);
+  start(n, k);
+  std::copy(initial.begin(), initial.end(), initial_.begin());
+  return lloyd(labels);
+}
+
+void KMeans::check_sizes(Index points, Index k, std::size_t labels) const {
+  check(k >= 1 && k <= points, "[kmeans] cannot make ", k, " clusters of ", points, " points; 1 to ", points,
+        " are possible");
+  check(points <= max_points_ && k <= max_clusters_, "[kmeans] ", points, " points in ", k,
+        " clusters, but memory was made for ", max_points_, " in ", max_clusters_);
+  check(static_cast<Index>(labels) == points, "[kmeans] ", labels, " labels for ", points, " points");
+}
+
+void KMeans::start(Index points, Index k) {
+  n_ = points;
+  k_ = k;
+  double total = 0;
+  for (Index i = 0; i < n_; ++i) {
+    float* row = distance_.row(i);
+    for (Index j = 0; j < i; ++j) total += distance_.row(j)[i] = row[j];
+    row[i] = 0;
+  }
+  // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
+  const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));
+  tolerance_ = options_.tolerance * variance / static_cast<double>(dimension_);
+}
+
+double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
   const std::span run_labels(labels_.data(), static_cast<std::size_t>(n_));
   double best = kInfinity;
   for (Index run = 0; run < options_.n_init; ++run) {
@@ -59,7 +106,6 @@ double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int
       std::copy(run_labels.begin(), run_labels.end(), labels.begin());
     }
   }
-
   std::fill_n(number_.begin(), k_, -1);
   std::int32_t next = 0;
   for (auto& label : labels) {
@@ -69,39 +115,8 @@ double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int
   return best;
 }
 
-double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
-                        std::span<const std::int32_t> initial, std::span<std::int32_t> labels) {
-  gather(distances, rows, static_cast<Index>(initial.size()), labels.size());
-  for (std::int32_t point : initial)
-    check(point >= 0 && point < n_, "[kmeans] initial centre ", point, " is not one of the ", n_, " points");
-  std::copy(initial.begin(), initial.end(), initial_.begin());
-  return lloyd(labels);
-}
-
-void KMeans::gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::size_t labels) {
-  n_ = static_cast<Index>(rows.size());
-  k_ = k;
-  check(k >= 1 && k <= n_, "[kmeans] cannot make ", k, " clusters of ", n_, " points; 1 to ", n_, " are possible");
-  check(n_ <= max_points_ && k <= max_clusters_, "[kmeans] ", n_, " points in ", k,
-        " clusters, but memory was made for ", max_points_, " in ", max_clusters_);
-  check(labels == rows.size(), "[kmeans] ", labels, " labels for ", n_, " points");
-  double total = 0;
-  for (Index i = 0; i < n_; ++i) {
-    const float* from = distances.row(rows[i]);
-    float* to = &distance_[i * n_];
-    for (Index j = 0; j < i; ++j) {
-      to[j] = distance_[j * n_ + i] = from[rows[j]];
-      total += to[j];
-    }
-    to[i] = 0;
-  }
-  // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
-  const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));
-  tolerance_ = options_.tolerance * variance / static_cast<double>(dimension_);
-}
-
 void KMeans::choose_initial(RandomStream& random) {
-  const auto distances_to = [&](Index point) { return Distances(&distance_[point * n_], n_).cast<double>(); };
+  const auto distances_to = [&](Index point) { return Distances(distance_.row(point), n_).cast<double>(); };
   Row closest(closest_.data(), n_);
   initial_[0] = static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n_)));
   closest = distances_to(initial_[0]);
@@ -145,7 +160,7 @@ double KMeans::lloyd(std::span<std::int32_t> labels) {
 void KMeans::start_at_initial() {
   std::fill_n(behind_.begin(), n_, -1);
   for (Index c = 0; c < k_; ++c) {
-    Row(&cluster_sum_[c * n_], n_) = Distances(&distance_[initial_[c] * n_], n_).cast<double>();
+    Row(&cluster_sum_[c * n_], n_) = Distances(distance_.row(initial_[c]), n_).cast<double>();
     cluster_size_[c] = 1;
     half_spread_[c] = 0;
   }
@@ -207,7 +222,7 @@ double KMeans::move_centres() {
   for (Index i = 0; i < n_; ++i) {
     const std::int32_t from = behind_[i], to = next_behind_[i];
     if (from == to) continue;
-    const auto distances = Distances(&distance_[i * n_], n_).cast<double>();
+    const auto distances = Distances(distance_.row(i), n_).cast<double>();
     if (from >= 0) {
       Row(&cluster_sum_[from * n_], n_) -= distances;
       --cluster_size_[from];

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "semantics/distances.h"
+#include "semantics/problem_distances.h"
 
 namespace svnet {
 
@@ -33,13 +33,18 @@ class KMeans {
   double cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, RandomStream random,
                  std::span<std::int32_t> labels);
 
+  /// The same of points whose distances are already together.
+  double cluster(const LowerTriangle& distances, Index k, RandomStream random, std::span<std::int32_t> labels);
+
   /// One run that starts from the points initial[c] in [0, rows.size()) as centres; k is their number. Labels are the
   /// numbers of the centres.
   double run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
                   std::span<const std::int32_t> initial, std::span<std::int32_t> labels);
 
  private:
-  void gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::size_t labels);
+  void check_sizes(Index points, Index k, std::size_t labels) const;
+  void start(Index points, Index k);
+  double best_run(RandomStream random, std::span<std::int32_t> labels);
   void choose_initial(RandomStream& random);
   double lloyd(std::span<std::int32_t> labels);
   void start_at_initial();
@@ -52,7 +57,7 @@ class KMeans {
   KMeansOptions options_;
   Index n_ = 0, k_ = 0;
   double tolerance_ = 0;                      // options_.tolerance times the mean variance of the features
-  std::vector<float> distance_;               // (n, n)
+  ProblemDistances distance_;                 // (n, n)
   std::vector<std::int32_t> initial_;         // (k) points
   std::vector<double> closest_, cumulative_;  // (n) k-means++: squared distance to the nearest centre
   std::vector<double> cluster_sum_;           // (k, n) sum of D_ij over the points j behind centre c

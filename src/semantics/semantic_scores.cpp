@@ -10,7 +10,6 @@ namespace svnet {
 namespace {
 
 constexpr std::uint64_t kBlock = 16384;         // problems between two looks at the stopping rules
-constexpr Index kChunk = 64;                    // problems that a thread takes at once
 constexpr std::uint64_t kEnoughForError = 100;  // scores below which a standard error is not believed
 
 void check_rules(const ScoreOptions& options) {
@@ -61,54 +60,13 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 
 }  // namespace
 
-ProblemSolver::ProblemSolver(const DistanceMatrix& distances, const ClusteringProblems& problems,
-                             const ScoreOptions& options, Parallel& parallel)
-    : distances_(distances), problems_(problems), options_(options), parallel_(parallel) {
-  check(distances.size() == problems.views(), "[scores] distances of ", distances.size(), " views, but problems of ",
-        problems.views());
-  const Index items = problems.max_items();
-  for (int worker = 0; worker < parallel.threads(); ++worker)
-    workers_.push_back({problems.new_problem(), Clusterer(options.clustering, items, problems.max_categories()),
-                        Contingency(items), std::vector<std::int32_t>(items), std::vector<double>(items),
-                        ScoreSums(problems.views())});
-}
-
-void ProblemSolver::solve_one(std::uint64_t number, Worker& worker) const {
-  auto& problem = worker.problem;
-  problems_.draw(options_.seed, number, problem);
-  const std::size_t items = problem.rows.size();
-  const std::span labels(worker.labels.data(), items);
-  const std::span individual(worker.individual.data(), items);
-  worker.clusterer.cluster(distances_, problem.rows, problem.categories, options_.seed, number, labels);
-  worker.contingency.count(problem.labels, labels);
-  worker.contingency.fowlkes_mallows_individual(options_.singletons, individual);
-  const std::uint64_t global = ScoreSums::fixed(worker.contingency.fowlkes_mallows());
-  for (std::size_t i = 0; i < items; ++i) {
-    auto& view = worker.sums.views[problem.rows[i]];
-    ++view.count;
-    view.global += global;
-    if (std::isnan(individual[i])) continue;
-    ++view.individual_count;
-    view.individual += ScoreSums::fixed(individual[i]);
-    view.individual_squared += ScoreSums::fixed(individual[i] * individual[i]);
-  }
-  ++worker.sums.problems;
-}
-
-void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {
-  parallel_.for_chunks(static_cast<Index>(last - first), kChunk, [&](Index begin, Index end, int worker) {
-    for (Index i = begin; i < end; ++i) solve_one(first + static_cast<std::uint64_t>(i), workers_[worker]);
-  });
-  for (auto& worker : workers_) sums.take(worker.sums);
-}
-
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
                      Parallel& parallel, ScoreSums& sums, const Messages& messages,
                      const std::function<void(const ScoreSums&)>& after_block) {
   check_rules(options);
   check(static_cast<Index>(sums.views.size()) == problems.views(), "[scores] the sums so far are of ",
         sums.views.size(), " views, the problems of ", problems.views());
-  ProblemSolver solver(distances, problems, options, parallel);
+  ProblemSolver solver(distances, problems, options.scoring(), parallel);
   Progress progress(messages, "semantic scores", static_cast<Index>(expected_problems(problems, options)));
   while (!finished(problems, options, sums)) {
     std::uint64_t border = (sums.problems / kBlock + 1) * kBlock;

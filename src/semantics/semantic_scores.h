@@ -5,11 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "semantics/cluster_metrics.h"
-#include "semantics/clusterer.h"
-#include "semantics/clustering_problems.h"
-#include "semantics/distances.h"
-#include "semantics/score_sums.h"
+#include "semantics/problem_solver.h"
 
 namespace svnet {
 
@@ -22,36 +18,8 @@ struct ScoreOptions {
   std::uint64_t seed = 0;
   Singletons singletons = Singletons::zero;
   ClusteringOptions clustering{};
-};
 
-/// Solves clustering problems and sums the scores of their views. Nothing is allocated per problem.
-class ProblemSolver {
- public:
-  /// Keeps references to all but the options; `parallel` must keep its number of threads. Throws Error where distances
-  /// and problems differ in the number of views.
-  ProblemSolver(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                Parallel& parallel);
-
-  /// Adds the problems numbered [first, last) to the sums. The same bits for any number of threads.
-  void solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums);
-
- private:
-  /// What one thread works with.
-  struct Worker {
-    ClusteringProblem problem;
-    Clusterer clusterer;
-    Contingency contingency;
-    std::vector<std::int32_t> labels;
-    std::vector<double> individual;
-    ScoreSums sums;
-  };
-  void solve_one(std::uint64_t number, Worker& worker) const;
-
-  const DistanceMatrix& distances_;
-  const ClusteringProblems& problems_;
-  ScoreOptions options_;
-  Parallel& parallel_;
-  std::vector<Worker> workers_;
+  ProblemScoring scoring() const { return {seed, singletons, clustering}; }
 };
 
 /// Continues `sums`, which hold the problems numbered from 0 to sums.problems - 1, until the options say stop. Only at

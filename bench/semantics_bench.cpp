@@ -1,0 +1,79 @@
+// semantics/<clustering>: one random problem of the paper's size (24 categories x 5 objects x 3 poses x 21 views), drawn,
+// clustered and scored on one thread. distances/<views>: the matrix of squared distances of 2048 features.
+#include <benchmark/benchmark.h>
+
+#include "semantics/problem_solver.h"
+
+namespace svnet {
+namespace {
+
+struct Paper {
+  std::vector<std::int64_t> category, object, pose;
+  std::vector<float> features;
+  static constexpr Index kFeatures = 2048;
+
+  Paper() {
+    RandomStream random(1, Stream::shuffle);
+    std::vector<float> centres(24 * kFeatures);
+    for (auto& value : centres) value = static_cast<float>(random.normal());
+    for (Index c = 0; c < 24; ++c)
+      for (Index o = 0; o < 5; ++o)
+        for (Index p = 0; p < 3; ++p)
+          for (Index v = 0; v < 21; ++v) {
+            category.push_back(c);
+            object.push_back(o);
+            pose.push_back(p);
+            for (Index d = 0; d < kFeatures; ++d)
+              features.push_back(centres[c * kFeatures + d] + 1.5f * static_cast<float>(random.normal()));
+          }
+  }
+  Index views() const { return static_cast<Index>(category.size()); }
+};
+
+const Paper& paper() {
+  static const Paper made;
+  return made;
+}
+
+void problem(benchmark::State& state, const ClusteringOptions& clustering) {
+  static const DistanceMatrix distances =
+      squared_distances(paper().features.data(), paper().views(), Paper::kFeatures, Parallel::shared());
+  const ClusteringProblems problems(paper().category, paper().object, paper().pose);
+  Parallel one(1);
+  ProblemSolver solver(distances, problems, {.clustering = clustering}, one);
+  ScoreSums sums(problems.views());
+  const auto batch = static_cast<std::uint64_t>(state.range(0));
+  std::uint64_t first = 0;
+  for (auto _ : state) {
+    solver.solve(first, first + batch, sums);
+    first += batch;
+  }
+  state.counters["seconds_per_problem"] = benchmark::Counter(
+      static_cast<double>(batch), benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+}
+
+void distance_matrix(benchmark::State& state) {
+  for (auto _ : state)
+    benchmark::DoNotOptimize(
+        squared_distances(paper().features.data(), paper().views(), Paper::kFeatures, Parallel::shared()).row(0));
+}
+
+const bool kRegistered = [] {
+  for (const auto linkage : {Linkage::ward, Linkage::average, Linkage::complete, Linkage::single})
+    benchmark::RegisterBenchmark(("problem/" + std::string(linkage_name(linkage))).c_str(), problem,
+                                 ClusteringOptions{.linkage = linkage})
+        ->Arg(16384)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
+  benchmark::RegisterBenchmark(
+      "problem/kmeans", problem,
+      ClusteringOptions{.method = ClusteringOptions::Method::kmeans, .dimension = Paper::kFeatures})
+      ->Arg(2048)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
+  benchmark::RegisterBenchmark("distances/7560x2048", distance_matrix)->Unit(benchmark::kMillisecond)->UseRealTime();
+  return true;
+}();
+
+}  // namespace
+}  // namespace svnet

@@ -1,0 +1,72 @@
+#include "semantics/problem_solver.h"
+
+#include <cmath>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+constexpr Index kChunk = 64;  // problems that a thread takes at once
+
+const DistanceMatrix& checked(const DistanceMatrix& distances, const ClusteringProblems& problems) {
+  check(distances.size() == problems.views(), "[scores] distances of ", distances.size(), " views, but problems of ",
+        problems.views());
+  return distances;
+}
+
+}  // namespace
+
+ProblemSolver::ProblemSolver(const DistanceMatrix& distances, const ClusteringProblems& problems,
+                             const ProblemScoring& scoring, Parallel& parallel)
+    : problems_(problems),
+      scoring_(scoring),
+      parallel_(parallel),
+      batch_(checked(distances, problems), problems, parallel) {
+  const Index items = problems.max_items(), categories = problems.max_categories();
+  for (int worker = 0; worker < parallel.threads(); ++worker)
+    workers_.push_back({Clusterer(scoring.clustering, items, categories), PairScores(categories),
+                        std::vector<std::int32_t>(items), std::vector<std::int32_t>(items), std::vector<double>(items),
+                        ScoreSums(problems.views())});
+}
+
+void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worker) const {
+  const auto rows = batch_.rows(problem);
+  const std::size_t items = rows.size();
+  const std::span truth(worker.truth.data(), items), prediction(worker.prediction.data(), items);
+  const std::span individual(worker.individual.data(), items);
+  // Items stand together by category.
+  std::int32_t label = -1, category = -1;
+  for (std::size_t i = 0; i < items; ++i) {
+    const std::int32_t of_item = problems_.category_of_view(rows[i]);
+    label += of_item != category;
+    category = of_item;
+    truth[i] = label;
+  }
+  worker.clusterer.cluster(batch_.distances(problem), batch_.categories(problem), scoring_.seed, number, prediction);
+  const std::uint64_t global =
+      ScoreSums::fixed(worker.scores.score(truth, prediction, scoring_.singletons, individual));
+  for (std::size_t i = 0; i < items; ++i) {
+    auto& view = worker.sums.views[rows[i]];
+    ++view.count;
+    view.global += global;
+    if (std::isnan(individual[i])) continue;
+    ++view.individual_count;
+    view.individual += ScoreSums::fixed(individual[i]);
+    view.individual_squared += ScoreSums::fixed(individual[i] * individual[i]);
+  }
+  ++worker.sums.problems;
+}
+
+void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {
+  while (first < last) {
+    const std::uint64_t count = batch_.draw(scoring_.seed, first, last - first);
+    parallel_.for_chunks(static_cast<Index>(count), kChunk, [&](Index begin, Index end, int worker) {
+      for (Index p = begin; p < end; ++p) solve_one(p, first + static_cast<std::uint64_t>(p), workers_[worker]);
+    });
+    first += count;
+  }
+  for (auto& worker : workers_) sums.take(worker.sums);
+}
+
+}  // namespace svnet
