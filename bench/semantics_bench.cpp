@@ -1,5 +1,5 @@
-// semantics/<clustering>: one random problem of the paper's size (24 categories x 5 objects x 3 poses x 21 views), drawn,
-// clustered and scored on one thread. distances/<views>: the matrix of squared distances of 2048 features.
+// semantics/<clustering>: one random problem of the paper's size (24 categories x 5 objects x 3 poses x 21 views),
+// drawn, clustered and scored on one thread. distances/<views>: the matrix of squared distances of 2048 features.
 #include <benchmark/benchmark.h>
 
 #include "semantics/problem_solver.h"

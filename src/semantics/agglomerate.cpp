@@ -1,9 +1,9 @@
 // Greedy agglomeration with cached nearest neighbours, after Müllner, "Modern hierarchical, agglomerative clustering
 // algorithms" (arXiv 1109.2378), section 3; updates by Lance and Williams (The Computer Journal 9, 1967).
 //
-// The linkages are reducible: a merged cluster is never nearer to a third than the nearer of its halves was. So what was
-// once the distance of a slot to its nearest later slot stays a lower bound, and only a slot whose bound is the smallest
-// of all is searched again, if its bound is out of date.
+// The linkages are reducible: a merged cluster is never nearer to a third than the nearer of its halves was. So what
+// was once the distance of a slot to its nearest later slot stays a lower bound, and only a slot whose bound is the
+// smallest of all is searched again, if its bound is out of date.
 #include "semantics/agglomerate.h"
 
 #include <limits>
@@ -31,7 +31,8 @@ struct Minimum {
   FloatVector value;
   IntVector position;
 
-  Minimum() : value(hn::Set(Floats(), kInfinity)), position(hn::Set(Ints(), std::numeric_limits<std::int32_t>::max())) {}
+  Minimum()
+      : value(hn::Set(Floats(), kInfinity)), position(hn::Set(Ints(), std::numeric_limits<std::int32_t>::max())) {}
 
   /// Positions must grow from call to call.
   HWY_INLINE void add(FloatVector values, IntVector positions) {

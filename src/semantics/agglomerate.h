@@ -14,8 +14,8 @@ struct AgglomerationState {
   std::int32_t* merged_into;
 };
 
-/// Merges the nearest two clusters until k are left. merged_into[i] becomes the earlier slot that slot i was merged into,
-/// or i. The same bits on every instruction set: nothing is fused, and minima do not depend on their order.
+/// Merges the nearest two clusters until k are left. merged_into[i] becomes the earlier slot that slot i was merged
+/// into, or i. The same bits on every instruction set: nothing is fused, and minima do not depend on their order.
 void agglomerate(Linkage linkage, Index k, AgglomerationState state);
 
 }  // namespace svnet

@@ -83,14 +83,14 @@ class ClusteringProblems {
   ProblemOptions options_;
   Index max_categories_ = 0, max_items_ = 0;
   std::vector<std::int64_t> category_name_;
-  std::vector<Range> category_;                     // objects of each category
-  std::vector<Range> object_;                       // poses of each object
-  std::vector<Range> pose_;                         // entries of views_
-  std::vector<std::int32_t> views_, pose_of_view_;  // rows sorted by pose; poses by row
+  std::vector<Range> category_;                         // objects of each category
+  std::vector<Range> object_;                           // poses of each object
+  std::vector<Range> pose_;                             // entries of views_
+  std::vector<std::int32_t> views_, pose_of_view_;      // rows sorted by pose; poses by row
   std::vector<std::int32_t> place_, category_of_view_;  // by row
-  std::vector<std::int32_t> included_;              // categories that are not excluded
-  std::vector<double> inclusion_;                   // per view
-  std::vector<std::uint8_t> may_have_partner_;      // per view
+  std::vector<std::int32_t> included_;                  // categories that are not excluded
+  std::vector<double> inclusion_;                       // per view
+  std::vector<std::uint8_t> may_have_partner_;          // per view
 };
 
 }  // namespace svnet

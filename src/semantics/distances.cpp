@@ -1,25 +1,20 @@
 #include "semantics/distances.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <limits>
 #include <vector>
 
-#include <sys/mman.h>
-
 #include "base/error.h"
+#include "semantics/product_tile.h"
 
 namespace svnet {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-
-constexpr Index kTile = 128;   // rows and columns of one parallel task
-constexpr Index kDepth = 256;  // features multiplied at once: two panels of kTile x kDepth doubles stay in L2
+constexpr Index kTile = kProductTile, kDepth = kProductDepth;
 /// Below this part of |x|² + |y|², |x|² + |y|² - 2 xy keeps fewer digits than a float32 needs.
 constexpr double kNearlyEqual = 1e-6;
+/// Leaves room in a float32 for the sums of many distances.
+constexpr double kLargest = 1e30;
 
 template <class T>
 void check_finite(const T* features, Index n, Index dimension, Parallel& parallel) {
@@ -59,41 +54,54 @@ struct CentredFeatures {
   Index n, dimension;
   std::vector<double> mean, squared_norm;
 
-  /// Features [first_feature, first_feature + columns) of rows [first_row, first_row + rows), centred.
-  void panel(Index first_row, Index rows, Index first_feature, Index columns, Matrix& out) const {
-    for (Index r = 0; r < rows; ++r) {
-      const T* x = features + (first_row + r) * dimension + first_feature;
-      double* y = out.row(r).data();
-      for (Index d = 0; d < columns; ++d) y[d] = x[d] - mean[first_feature + d];
-    }
+  /// Features [first_feature, first_feature + depth) of the tile of rows from first_row on, centred, as add_products
+  /// takes them in panels of `width` rows; zeros below the last row.
+  void pack(Index first_row, Index first_feature, Index depth, Index width, double* to) const {
+    for (Index panel = 0; panel < kTile; panel += width, to += width * depth)
+      for (Index r = 0; r < width; ++r) {
+        const Index row = first_row + panel + r;
+        if (row < n)
+          for (Index d = 0; d < depth; ++d)
+            to[d * width + r] = features[row * dimension + first_feature + d] - mean[first_feature + d];
+        else
+          for (Index d = 0; d < depth; ++d) to[d * width + r] = 0;
+      }
   }
 };
 
 struct TileScratch {
-  Matrix left{kTile, kDepth}, right{kTile, kDepth}, products{kTile, kTile};
+  AlignedArray<double> left{static_cast<std::size_t>(kTile * kDepth)}, right{static_cast<std::size_t>(kTile * kDepth)},
+      products{static_cast<std::size_t>(kTile * kTile)};
 };
 
 template <class T>
 void distance_tile(const CentredFeatures<T>& x, Index i0, Index j0, TileScratch& scratch, DistanceMatrix& distances) {
-  const Index rows = std::min(kTile, x.n - i0), columns = std::min(kTile, x.n - j0);
-  scratch.products.setZero();
+  const auto [left_width, right_width] = panel_widths();
+  std::fill_n(scratch.products.data(), kTile * kTile, 0.0);
   for (Index d = 0; d < x.dimension; d += kDepth) {
     const Index depth = std::min(kDepth, x.dimension - d);
-    x.panel(i0, rows, d, depth, scratch.left);
-    x.panel(j0, columns, d, depth, scratch.right);
-    scratch.products.topLeftCorner(rows, columns).noalias() +=
-        scratch.left.topLeftCorner(rows, depth) * scratch.right.topLeftCorner(columns, depth).transpose();
+    x.pack(i0, d, depth, left_width, scratch.left.data());
+    x.pack(j0, d, depth, right_width, scratch.right.data());
+    add_products(scratch.left.data(), scratch.right.data(), depth, scratch.products.data());
   }
-  for (Index i = i0; i < i0 + rows; ++i)
-    for (Index j = std::max(j0, i + 1); j < j0 + columns; ++j) {
+  const Index i1 = std::min(i0 + kTile, x.n), j1 = std::min(j0 + kTile, x.n);
+  for (Index i = i0; i < i1; ++i) {
+    float* row = distances.row(i);
+    const double* products = scratch.products.data() + (i - i0) * kTile;
+    for (Index j = std::max(j0, i + 1); j < j1; ++j) {
       const double norms = x.squared_norm[i] + x.squared_norm[j];
-      double distance = norms - 2 * scratch.products(i - i0, j - j0);
+      double distance = norms - 2 * products[j - j0];
       if (distance < kNearlyEqual * norms)
         distance = direct_distance(x.features + i * x.dimension, x.features + j * x.dimension, x.dimension);
-      check(distance <= std::numeric_limits<float>::max(), "[distances] the squared distance of rows ", i, " and ", j,
-            " is ", distance, ", beyond float32; scale the features down");
-      distances.row(i)[j] = distances.row(j)[i] = static_cast<float>(distance);
+      check(distance <= kLargest, "[distances] the squared distance of rows ", i, " and ", j, " is ", distance,
+            ", beyond ", kLargest, "; scale the features down");
+      row[j] = static_cast<float>(distance);
     }
+  }
+  // The mirror image, line by line.
+  for (Index i = i0; i < i1; i += 16)
+    for (Index j = j0; j < j1; ++j)
+      for (Index row = i; row < std::min({i + 16, i1, j}); ++row) distances.row(j)[row] = distances.row(row)[j];
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ class DistanceMatrix {
 /// The squared distances between the rows of features (n, dimension), float or double. Features are centred by their
 /// mean, products are accumulated in double, and only the distance is rounded to float32; rows that nearly coincide are
 /// subtracted directly, so that equal rows have distance 0. The same bits for any number of threads. Throws Error for
-/// an empty shape, for a feature that is not finite and for a distance beyond float32.
+/// an empty shape, for a feature that is not finite and for a distance beyond 1e30.
 template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel);
 

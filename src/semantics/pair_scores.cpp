@@ -39,7 +39,8 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
     class_size_[truth[i]] = cluster_size_[prediction[i]] = 0;
   }
   const auto tp = static_cast<double>(both);
-  return both == 0 ? 0 : std::sqrt(tp / static_cast<double>(in_truth)) * std::sqrt(tp / static_cast<double>(in_prediction));
+  return both == 0 ? 0
+                   : std::sqrt(tp / static_cast<double>(in_truth)) * std::sqrt(tp / static_cast<double>(in_prediction));
 }
 
 }  // namespace svnet

@@ -6,11 +6,11 @@
 namespace svnet {
 namespace {
 
-constexpr Index kChunk = 512;                   // problems drawn and sorted at once
-constexpr Index kRowChunk = 16;                 // matrix rows served at once
-constexpr Index kMaxItems = Index{1} << 22;     // of all problems together
-constexpr Index kMaxFloats = Index{1} << 25;    // of all triangles together, unless one problem needs more
-constexpr Index kAhead = 8;                     // items whose memory is asked for before their turn
+constexpr Index kChunk = 512;                 // problems drawn and sorted at once
+constexpr Index kRowChunk = 16;               // matrix rows served at once
+constexpr Index kMaxItems = Index{1} << 22;   // of all problems together
+constexpr Index kMaxFloats = Index{1} << 25;  // of all triangles together, unless one problem needs more
+constexpr Index kAhead = 8;                   // items whose memory is asked for before their turn
 constexpr Index kLine = LowerTriangle::kLine;
 
 Index capacity_for(Index max_items) {
@@ -34,13 +34,13 @@ ProblemBatch::ProblemBatch(const DistanceMatrix& distances, const ClusteringProb
       next_item_(static_cast<std::size_t>(chunks_of(capacity_) * problems.views())),
       first_item_(problems.views() + 1),
       items_(static_cast<std::size_t>(capacity_ * max_items_), AlignedArray<Item>::Contents::undefined),
-      triangle_room_(std::max(LowerTriangle::size(max_items_),
-                              std::min(kMaxFloats, capacity_ * LowerTriangle::size(max_items_)))),
+      triangle_room_(
+          std::max(LowerTriangle::size(max_items_), std::min(kMaxFloats, capacity_ * LowerTriangle::size(max_items_)))),
       triangles_(static_cast<std::size_t>(triangle_room_), AlignedArray<float>::Contents::undefined) {
   const std::size_t words = static_cast<std::size_t>(problems.views() + 63) / 64;
   for (int i = 0; i < parallel.threads(); ++i)
-    drawers_.push_back({problems.new_problem(), std::vector<std::uint64_t>(words),
-                        std::vector<std::uint64_t>((words + 63) / 64)});
+    drawers_.push_back(
+        {problems.new_problem(), std::vector<std::uint64_t>(words), std::vector<std::uint64_t>((words + 63) / 64)});
 }
 
 std::uint64_t ProblemBatch::draw(std::uint64_t seed, std::uint64_t first, std::uint64_t wanted) {

@@ -97,7 +97,7 @@ TEST_CASE("squared distances name the row that is to blame") {
   CHECK_THROWS_WITH(distances_of(points, 4), "[distances] feature 2 of row 257 is inf; every feature must be finite");
   points[257 * 4 + 2] = 1e30f;
   CHECK_THROWS_WITH(distances_of(points, 4),
-                    "[distances] the squared distance of rows 0 and 257 is 1e+60, beyond float32; scale the features "
+                    "[distances] the squared distance of rows 0 and 257 is 1e+60, beyond 1e+30; scale the features "
                     "down");
   CHECK_THROWS_WITH(squared_distances(points.data(), 0, 4, Parallel::shared()),
                     "[distances] features are 0x4; at least 1x1 is needed");
