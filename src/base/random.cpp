@@ -5,16 +5,34 @@
 
 namespace svnet {
 
-std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
-  for (int round = 0; round < 10; ++round) {
-    const std::uint64_t p0 = std::uint64_t{0xD2511F53} * c[0];
-    const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * c[2];
-    c = {static_cast<std::uint32_t>(p1 >> 32) ^ c[1] ^ k[0], static_cast<std::uint32_t>(p1),
-         static_cast<std::uint32_t>(p0 >> 32) ^ c[3] ^ k[1], static_cast<std::uint32_t>(p0)};
-    k[0] += 0x9E3779B9;
-    k[1] += 0xBB67AE85;
-  }
+namespace {
+
+using Counter = std::array<std::uint32_t, 4>;
+using Key = std::array<std::uint32_t, 2>;
+
+inline Counter round(const Counter& c, const Key& k) {
+  const std::uint64_t p0 = std::uint64_t{0xD2511F53} * c[0];
+  const std::uint64_t p1 = std::uint64_t{0xCD9E8D57} * c[2];
+  return {static_cast<std::uint32_t>(p1 >> 32) ^ c[1] ^ k[0], static_cast<std::uint32_t>(p1),
+          static_cast<std::uint32_t>(p0 >> 32) ^ c[3] ^ k[1], static_cast<std::uint32_t>(p0)};
+}
+
+inline Key next(const Key& k) { return {k[0] + 0x9E3779B9, k[1] + 0xBB67AE85}; }
+
+}  // namespace
+
+std::array<std::uint32_t, 4> philox4x32(Counter c, Key k) {
+  for (int i = 0; i < 10; ++i, k = next(k)) c = round(c, k);
   return c;
+}
+
+void philox4x32_four(Counter counter, Key k, std::array<std::uint32_t, 16>& words) {
+  Counter a = counter, b = counter, c = counter, d = counter;
+  b[2] += 1, c[2] += 2, d[2] += 3;
+  for (int i = 0; i < 10; ++i, k = next(k)) a = round(a, k), b = round(b, k), c = round(c, k), d = round(d, k);
+  std::size_t word = 0;
+  for (const Counter& of : {a, b, c, d})
+    for (const std::uint32_t value : of) words[word++] = value;
 }
 
 double RandomStream::normal() {

@@ -30,6 +30,13 @@ ProblemSolver::ProblemSolver(const DistanceMatrix& distances, const ClusteringPr
                         ScoreSums(problems.views())});
 }
 
+/// Asks for the memory of a problem while another one is solved.
+void ProblemSolver::prefetch(Index problem) const {
+  const LowerTriangle triangle = batch_.distances(problem);
+  const float* end = triangle.values + LowerTriangle::size(triangle.points);
+  for (const float* line = triangle.values; line < end; line += LowerTriangle::kLine) __builtin_prefetch(line);
+}
+
 void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worker) const {
   const auto rows = batch_.rows(problem);
   const std::size_t items = rows.size();
@@ -62,7 +69,10 @@ void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& su
   while (first < last) {
     const std::uint64_t count = batch_.draw(scoring_.seed, first, last - first);
     parallel_.for_chunks(static_cast<Index>(count), kChunk, [&](Index begin, Index end, int worker) {
-      for (Index p = begin; p < end; ++p) solve_one(p, first + static_cast<std::uint64_t>(p), workers_[worker]);
+      for (Index p = begin; p < end; ++p) {
+        if (p + 1 < end) prefetch(p + 1);
+        solve_one(p, first + static_cast<std::uint64_t>(p), workers_[worker]);
+      }
     });
     first += count;
   }

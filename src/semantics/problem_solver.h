@@ -36,6 +36,7 @@ class ProblemSolver {
     std::vector<double> individual;
     ScoreSums sums;
   };
+  void prefetch(Index problem) const;
   void solve_one(Index problem, std::uint64_t number, Worker& worker) const;
 
   const ClusteringProblems& problems_;
