@@ -10,7 +10,7 @@ namespace {
 struct Paper {
   std::vector<std::int64_t> category, object, pose;
   std::vector<float> features;
-  static constexpr Index kFeatures = 2048;
+  static constexpr Index kFeatures = 64;  // enough: problems see distances alone
 
   Paper() {
     RandomStream random(1, Stream::shuffle);
@@ -53,9 +53,12 @@ void problem(benchmark::State& state, const ClusteringOptions& clustering) {
 }
 
 void distance_matrix(benchmark::State& state) {
+  const Index views = 7560, features = state.range(0);
+  std::vector<float> values(static_cast<std::size_t>(views * features));
+  RandomStream random(1, Stream::shuffle);
+  for (auto& value : values) value = static_cast<float>(random.uniform());
   for (auto _ : state)
-    benchmark::DoNotOptimize(
-        squared_distances(paper().features.data(), paper().views(), Paper::kFeatures, Parallel::shared()).row(0));
+    benchmark::DoNotOptimize(squared_distances(values.data(), views, features, Parallel::shared()).row(0));
 }
 
 const bool kRegistered = [] {
@@ -71,7 +74,10 @@ const bool kRegistered = [] {
       ->Arg(2048)
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime();
-  benchmark::RegisterBenchmark("distances/7560x2048", distance_matrix)->Unit(benchmark::kMillisecond)->UseRealTime();
+  benchmark::RegisterBenchmark("distances/7560", distance_matrix)
+      ->Arg(2048)
+      ->Unit(benchmark::kMillisecond)
+      ->UseRealTime();
   return true;
 }();
 

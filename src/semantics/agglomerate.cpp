@@ -6,6 +6,7 @@
 // smallest of all is searched again, if its bound is out of date.
 #include "semantics/agglomerate.h"
 
+#include <algorithm>
 #include <limits>
 
 #undef HWY_TARGET_INCLUDE
@@ -37,7 +38,7 @@ struct Minimum {
   /// Positions must grow from call to call.
   HWY_INLINE void add(FloatVector values, IntVector positions) {
     const auto smaller = hn::Lt(values, value);
-    value = hn::Min(values, value);
+    value = hn::IfThenElse(smaller, values, value);
     position = hn::IfThenElse(hn::RebindMask(Ints(), smaller), positions, position);
   }
   /// Both end up in every lane. The position of infinity is the largest number.
@@ -49,6 +50,35 @@ struct Minimum {
     value = smallest;
   }
 };
+
+/// Fills the upper half from the lower one by squares of four, where there are vectors of four.
+HWY_INLINE void mirror(const AgglomerationState& s) {
+#if HWY_TARGET == HWY_SCALAR
+  for (Index j = 0; j < s.n; ++j)
+    for (Index i = 0; i < j; ++i) s.dissimilarity[i * s.stride + j] = s.dissimilarity[j * s.stride + i];
+#else
+  const hn::FixedTag<float, 4> d;
+  const hn::RepartitionToWide<decltype(d)> pairs;
+  for (Index j = 0; j < s.n; j += 4) {
+    const float* row = s.dissimilarity + j * s.stride;  // below the last row there is memory, too
+    for (Index i = 0; i < j; i += 4) {
+      const auto r0 = hn::Load(d, row + i), r1 = hn::Load(d, row + s.stride + i);
+      const auto r2 = hn::Load(d, row + 2 * s.stride + i), r3 = hn::Load(d, row + 3 * s.stride + i);
+      const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(d, r0, r1));
+      const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(d, r2, r3));
+      const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r0, r1));
+      const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r2, r3));
+      float* to = s.dissimilarity + i * s.stride + j;
+      hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, low01, low23)), d, to);
+      hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, low01, low23)), d, to + s.stride);
+      hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, high01, high23)), d, to + 2 * s.stride);
+      hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23)), d, to + 3 * s.stride);
+    }
+    for (Index r = 1; r < std::min<Index>(4, s.n - j); ++r)
+      for (Index c = 0; c < r; ++c) s.dissimilarity[(j + c) * s.stride + j + r] = row[r * s.stride + j + c];
+  }
+#endif
+}
 
 /// Fills the upper half from the lower one and finds the nearest later slot of each slot.
 template <Linkage linkage>
@@ -80,8 +110,22 @@ HWY_INLINE void start(const AgglomerationState& s) {
       hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), later, hn::Load(di, s.nearest + i)), di, s.nearest + i);
     }
     row[j] = 0;
-    for (Index i = 0; i < j; ++i) s.dissimilarity[i * s.stride + j] = row[i];
   }
+  mirror(s);
+}
+
+/// values[slot] = value, by a whole vector: a vector load that follows would have to wait for a narrower store.
+HWY_INLINE void set(float* values, Index slot, FloatVector value) {
+  const Floats d;
+  const Index first = slot & -static_cast<Index>(hn::Lanes(d));
+  const auto lane = hn::Eq(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(slot - first)));
+  hn::Store(hn::IfThenElse(hn::RebindMask(d, lane), value, hn::Load(d, values + first)), d, values + first);
+}
+HWY_INLINE void set(std::int32_t* values, Index slot, IntVector value) {
+  const Ints d;
+  const Index first = slot & -static_cast<Index>(hn::Lanes(d));
+  const auto lane = hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(slot - first)));
+  hn::Store(hn::IfThenElse(lane, value, hn::Load(d, values + first)), d, values + first);
 }
 
 HWY_INLINE void find_nearest(const AgglomerationState& s, Index a) {
@@ -89,91 +133,130 @@ HWY_INLINE void find_nearest(const AgglomerationState& s, Index a) {
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
   const float* row = s.dissimilarity + a * s.stride;
-  const auto slot = hn::Set(di, static_cast<std::int32_t>(a));
+  const auto slot = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
+  const Index first = a & -lanes;
+  auto position = hn::Iota(di, static_cast<std::int32_t>(first));
   Minimum nearest;
-  for (Index i = (a + 1) / lanes * lanes; i < s.n; i += lanes) {
-    const auto position = hn::Iota(di, static_cast<std::int32_t>(i));
-    const auto value = hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i));
-    nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot)), value, hn::Set(d, kInfinity)), position);
+  nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot)),
+                             hn::Add(hn::Load(d, row + first), hn::Load(d, s.gone + first)), hn::Set(d, kInfinity)),
+              position);
+  for (Index i = first + lanes; i < s.n; i += lanes) {
+    position = hn::Add(position, step);
+    nearest.add(hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i)), position);
   }
   nearest.reduce();
-  s.nearest_value[a] = hn::GetLane(nearest.value);
-  s.nearest[a] = hn::GetLane(nearest.position);
+  set(s.nearest_value, a, nearest.value);
+  set(s.nearest, a, nearest.position);
 }
 
-/// The two clusters that are nearest to each other; of equally near pairs the one whose lower slot comes first.
-HWY_INLINE Index nearest_pair(const AgglomerationState& s) {
+/// The slot with the smallest bound; of equal ones the first.
+HWY_INLINE Index smallest_bound(const AgglomerationState& s) {
   const Floats d;
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  for (;;) {
-    Minimum pair;
-    for (Index i = 0; i < s.n; i += lanes)
-      pair.add(hn::Load(d, s.nearest_value + i), hn::Iota(di, static_cast<std::int32_t>(i)));
-    pair.reduce();
-    const Index a = hn::GetLane(pair.position), b = s.nearest[a];
-    if (s.gone[b] == 0 && s.dissimilarity[a * s.stride + b] == s.nearest_value[a]) return a;
-    find_nearest(s, a);
-  }
+  const auto step = hn::Set(di, static_cast<std::int32_t>(lanes));
+  auto position = hn::Iota(di, 0);
+  Minimum smallest;
+  for (Index i = 0; i < s.n; i += lanes, position = hn::Add(position, step))
+    smallest.add(hn::Load(d, s.nearest_value + i), position);
+  smallest.reduce();
+  return hn::GetLane(smallest.position);
 }
 
+HWY_INLINE bool up_to_date(const AgglomerationState& s, Index a) {
+  const Index b = s.nearest[a];
+  return s.gone[b] == 0 && s.dissimilarity[a * s.stride + b] == s.nearest_value[a];
+}
+
+/// Merges slot b into the earlier slot a; returns the slot with the smallest bound afterwards.
 template <Linkage linkage>
-HWY_INLINE void merge(const AgglomerationState& s, Index a, Index b) {
+HWY_INLINE Index merge(const AgglomerationState& s, Index a, Index b) {
   const Floats d;
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  float* row_a = s.dissimilarity + a * s.stride;
-  const float* row_b = s.dissimilarity + b * s.stride;
-  const float size_a = s.size[a], size_b = s.size[b];
-  const auto between = hn::Set(d, row_a[b]), both = hn::Set(d, size_a + size_b);
-  const auto of_a = hn::Set(d, size_a), of_b = hn::Set(d, size_b);
-  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a));
+  float* HWY_RESTRICT row_a = s.dissimilarity + a * s.stride;
+  const float* HWY_RESTRICT row_b = s.dissimilarity + b * s.stride;
+  const auto of_a = hn::Set(d, s.size[a]), of_b = hn::Set(d, s.size[b]), both = hn::Add(of_a, of_b);
+  const auto between = hn::Set(d, row_a[b]), infinity = hn::Set(d, kInfinity);
+  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
   s.merged_into[b] = static_cast<std::int32_t>(a);
-  s.gone[b] = s.nearest_value[b] = kInfinity;
-  s.nearest[b] = -1;
-  Minimum nearest;
-  for (Index i = 0; i < s.n; i += lanes) {
+  set(s.gone, b, infinity);
+  set(s.nearest_value, b, infinity);
+  set(s.nearest_value, a, infinity);  // until it is known again
+
+  auto position = hn::Iota(di, 0);
+  Minimum nearest, smallest;
+  /// The distances from the merged cluster to the slots of a vector, infinite where they are gone.
+  const auto merged = [&](Index i) HWY_ATTR {
     const auto to_a = hn::Load(d, row_a + i), to_b = hn::Load(d, row_b + i);
-    FloatVector merged;
+    FloatVector value;
     if constexpr (linkage == Linkage::ward) {
       const auto size = hn::Load(d, s.size + i);
       const auto sum = hn::Add(hn::Mul(hn::Add(size, of_a), to_a), hn::Mul(hn::Add(size, of_b), to_b));
-      merged = hn::Div(hn::Sub(sum, hn::Mul(size, between)), hn::Add(size, both));
+      value = hn::Div(hn::Sub(sum, hn::Mul(size, between)), hn::Add(size, both));
     } else if constexpr (linkage == Linkage::average) {
-      merged = hn::Div(hn::Add(hn::Mul(of_a, to_a), hn::Mul(of_b, to_b)), both);
+      value = hn::Div(hn::Add(hn::Mul(of_a, to_a), hn::Mul(of_b, to_b)), both);
     } else if constexpr (linkage == Linkage::complete) {
-      merged = hn::Max(to_a, to_b);
+      value = hn::Max(to_a, to_b);
     } else {
-      merged = hn::Min(to_a, to_b);
+      value = hn::Min(to_a, to_b);
     }
-    hn::Store(merged, d, row_a + i);
-    const auto position = hn::Iota(di, static_cast<std::int32_t>(i));
-    const auto value = hn::Add(merged, hn::Load(d, s.gone + i));
-    // Earlier slots may find the merged cluster nearest, by rounding or in a tie.
+    hn::Store(value, d, row_a + i);
+    return hn::Add(value, hn::Load(d, s.gone + i));
+  };
+  /// Earlier slots may find the merged cluster nearest, by rounding or in a tie.
+  const auto update_bounds = [&](Index i, FloatVector value, auto allowed) HWY_ATTR {
     const auto bound = hn::Load(d, s.nearest_value + i);
     const auto of_bound = hn::Load(di, s.nearest + i);
-    const auto earlier = hn::RebindMask(d, hn::Lt(position, slot_a));
-    const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Lt(slot_a, of_bound)));
-    const auto nearer = hn::And(earlier, hn::Or(hn::Lt(value, bound), tied));
-    hn::Store(hn::IfThenElse(nearer, value, bound), d, s.nearest_value + i);
+    const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Gt(of_bound, slot_a)));
+    const auto nearer = allowed(hn::Or(hn::Lt(value, bound), tied));
+    const auto new_bound = hn::IfThenElse(nearer, value, bound);
+    hn::Store(new_bound, d, s.nearest_value + i);
     hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), slot_a, of_bound), di, s.nearest + i);
-    const auto later = hn::RebindMask(d, hn::Gt(position, slot_a));
-    nearest.add(hn::IfThenElse(later, value, hn::Set(d, kInfinity)), position);
+    smallest.add(new_bound, position);
+  };
+  const Index vector_of_a = a & -lanes;
+  Index i = 0;
+  for (; i < vector_of_a; i += lanes, position = hn::Add(position, step))
+    update_bounds(i, merged(i), [](auto nearer) HWY_ATTR { return nearer; });
+  const auto value = merged(i);
+  update_bounds(i, value,
+                [&](auto nearer) HWY_ATTR { return hn::And(nearer, hn::RebindMask(d, hn::Gt(slot_a, position))); });
+  nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity), position);
+  for (i += lanes, position = hn::Add(position, step); i < s.n; i += lanes, position = hn::Add(position, step)) {
+    nearest.add(merged(i), position);
+    smallest.add(hn::Load(d, s.nearest_value + i), position);
   }
   nearest.reduce();
-  s.nearest_value[a] = hn::GetLane(nearest.value);
-  s.nearest[a] = hn::GetLane(nearest.position);
-  s.size[a] = size_a + size_b;
-  float* column = s.dissimilarity + a;
-  for (Index i = 0; i < s.n; ++i) column[i * s.stride] = row_a[i];
+  smallest.reduce();
+  set(s.nearest_value, a, nearest.value);
+  set(s.nearest, a, nearest.position);
+  if (linkage == Linkage::ward || linkage == Linkage::average) set(s.size, a, both);
+
+  float* HWY_RESTRICT to = s.dissimilarity + a;
+  const Index stride = s.stride;
+  for (Index row = 0; row < s.n; row += 4, to += 4 * stride) {  // below the last row there is memory, too
+    to[0] = row_a[row];
+    to[stride] = row_a[row + 1];
+    to[2 * stride] = row_a[row + 2];
+    to[3 * stride] = row_a[row + 3];
+  }
+  const float of_slot_a = hn::GetLane(nearest.value), of_others = hn::GetLane(smallest.value);
+  const Index other = hn::GetLane(smallest.position);
+  return of_slot_a < of_others || (of_slot_a == of_others && a < other) ? a : other;
 }
 
 template <Linkage linkage>
-void agglomerate_by(Index k, const AgglomerationState& s) {
+void agglomerate_by(Index k, const AgglomerationState& given) {
+  const AgglomerationState s = given;  // vector stores may alias what they do not know to be here alone
   start<linkage>(s);
+  Index a = smallest_bound(s);
   for (Index clusters = s.n; clusters > k; --clusters) {
-    const Index a = nearest_pair(s);
-    merge<linkage>(s, a, s.nearest[a]);
+    while (!up_to_date(s, a)) {
+      find_nearest(s, a);
+      a = smallest_bound(s);
+    }
+    a = merge<linkage>(s, a, s.nearest[a]);
   }
 }
 

@@ -13,14 +13,14 @@ namespace svnet {
 class ProblemDistances {
  public:
   explicit ProblemDistances(Index max_points)
-      : max_points_(max_points), values_(static_cast<std::size_t>(max_points * stride_for(max_points))) {}
+      : max_points_(max_points), values_(static_cast<std::size_t>((max_points + 3) * stride_for(max_points))) {}
 
   Index max_points() const { return max_points_; }
   Index stride() const { return stride_; }
   float* row(Index i) { return values_.data() + i * stride_; }
   const float* row(Index i) const { return values_.data() + i * stride_; }
 
-  /// At most max_points rows.
+  /// At most max_points rows. Below the last row there is memory for three more.
   void gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows) {
     const auto n = static_cast<Index>(rows.size());
     stride_ = stride_for(n);
