@@ -75,8 +75,9 @@ py::dict semantic_scores(const py::object& given_features, const py::object& giv
           problems.views(), " categories, objects and poses");
     const auto distances = features.squared_distances(Parallel::shared());
     ScoreSums sums(problems.views());
-    continue_scores(distances, problems, options, Parallel::shared(), sums, {},
-                    [](const ScoreSums&) { let_python_interrupt(); });
+    Alone alone;
+    continue_scores(distances, problems, options, Parallel::shared(), alone, sums,
+                    {.messages = nullptr, .after_step = [](const ScoreSums&) { let_python_interrupt(); }});
     scores = scores_from(sums);
   }
   py::dict result;

@@ -4,14 +4,19 @@
 #include "io/atomic_file.h"
 #include "io/file_hash.h"
 #include "io/keras_graph.h"
+#include "mpi/mpi_team.h"
 #include "train/feature_extraction.h"
 
-int main(int argc, char** argv) {
-  using namespace svnet;
+namespace svnet {
+namespace {
+
+int run(int argc, char** argv, Team& team) {
   Command command(
       "svnet-features",
       "Writes the features of every picture of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
-      "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5");
+      "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5\n"
+      "mpirun -n 8 svnet-features --threads 1 --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos "
+      "--output features.h5");
   std::vector<std::string> names;
   for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer;
@@ -27,15 +32,24 @@ int main(int argc, char** argv) {
       .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
       ->type_name("NAME");
   return command.run(argc, argv, [&](Console& console) {
-    check_can_be_written(output);
+    const bool first = team.rank() == 0;
+    if (first) check_can_be_written(output);
     KerasLoadReport report;
     const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
-    console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                        report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
+    if (first)
+      console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
+                          report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
     const ViewDataset dataset = read_view_dataset(images);
     const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
-    const Features features = extract_features(source.backbone, dataset, origin, console.messages());
+    const Features features =
+        extract_features(source.backbone, dataset, origin, first ? console.messages() : Messages{}, team);
+    if (!first) return;
     write_features(output, features);
     console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
   });
 }
+
+}  // namespace
+}  // namespace svnet
+
+int main(int argc, char** argv) { return svnet::main_of_team(argc, argv, "svnet-features", svnet::run); }

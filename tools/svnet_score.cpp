@@ -4,20 +4,25 @@
 #include "io/features_file.h"
 #include "io/scores_file.h"
 #include "io/view_dataset.h"
-#include "semantics/semantic_scores.h"
-#include "train/clustering_choice.h"
+#include "mpi/mpi_team.h"
 #include "train/scores_stage.h"
 #include "train/training_set.h"
 
-int main(int argc, char** argv) {
-  using namespace svnet;
+namespace svnet {
+namespace {
+
+int run(int argc, char** argv, Team& team) {
   Command command("svnet-score",
                   "Writes the Monte-Carlo semantic scores of every view: how well it is clustered in random problems.",
                   "svnet-score --features features.h5 --dataset photos --output scores.h5 --exclude comb,hammer "
-                  "--min-samples 2000");
+                  "--min-samples 2000\n"
+                  "mpirun -n 8 svnet-score --threads 1 --features features.h5 --dataset photos --output scores.h5 "
+                  "--problems 30000000 --resume");
   std::filesystem::path features_file, dataset_folder, output;
   std::vector<std::string> excluded;
   std::string linkage = "ward", singletons = "zero";
+  bool resume = false;
+  double snapshot_seconds = 10;
   Config config;
   command.app().add_option("--features", features_file, "Features of every view (svnet-features)")->required();
   command.app().add_option("--dataset", dataset_folder, "The dataset that the features are of")->required();
@@ -49,22 +54,47 @@ int main(int argc, char** argv) {
       .add_option("--seed", config.seed, "Of the random problems")
       ->check(CLI::Range(Index{0}, Index{1} << 53))
       ->capture_default_str();
+  const auto range = [&](const char* name, Index& value, const char* help) {
+    command.app().add_option(name, value, help)->check(CLI::Range(Index{0}, Index{1} << 31))->capture_default_str();
+  };
+  range("--min-categories", config.scores.min_categories, "Fewest categories of a problem");
+  range("--max-categories", config.scores.max_categories, "Most categories of a problem; 0: all");
+  range("--min-objects", config.scores.min_objects, "Fewest objects of a category in a problem");
+  range("--max-objects", config.scores.max_objects, "Most objects of a category in a problem; 0: all");
+  command.app()
+      .add_option("--snapshot-seconds", snapshot_seconds, "Seconds between two snapshots of the work so far")
+      ->check(CLI::Range(0.0, 30.0))
+      ->capture_default_str();
+  command.app().add_flag("--resume", resume, "Go on from OUTPUT.snapshot, which is kept up to date, where it exists");
   return command.run(argc, argv, [&](Console& console) {
+    const bool first = team.rank() == 0;
+    const Messages messages = first ? console.messages() : Messages{};
     auto& s = config.scores;
     if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
       wrong_usage("give one of --min-samples, --problems, --target-error");
     s.clustering = clustering_from_name(linkage);
     s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
     config.dataset.held_out = excluded;
-    check_can_be_written(output);
+    if (first) check_can_be_written(output);
     const ViewDataset dataset = read_view_dataset(dataset_folder);
     const Features features = read_features(features_file);
     check_rows(dataset, features.paths, features_file.string());
     check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
           ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
+    const std::filesystem::path snapshot = snapshot_path(output);
     const Scores scores =
-        make_scores(dataset, features, named_categories(dataset, excluded, "--exclude"), config, console.messages());
+        make_scores(dataset, features, named_categories(dataset, excluded, "--exclude"), config, messages,
+                    {.snapshot = snapshot, .snapshot_seconds = snapshot_seconds, .resume = resume, .team = &team});
+    if (!first) return;
     write_scores(output, scores);
+    std::error_code no_snapshot;
+    std::filesystem::remove(snapshot, no_snapshot);
     console.result(joined(output.string(), ": ", scores.problems, " problems"));
+    console.result(certainty_text(scores));
   });
 }
+
+}  // namespace
+}  // namespace svnet
+
+int main(int argc, char** argv) { return svnet::main_of_team(argc, argv, "svnet-score", svnet::run); }

@@ -21,13 +21,14 @@ constexpr std::pair<const char*, std::string ScoresOrigin::*> kTextAttributes[] 
 struct Column {
   const char* name;
   std::vector<double> Scores::*values;
-  double largest;
+  double smallest, largest;
 };
 constexpr Column kColumns[] = {
-    {"individual", &Scores::individual, 1},
-    {"global", &Scores::global, 1},
-    {"scaled", &Scores::scaled, 1},
-    {"standard_error", &Scores::standard_error, std::numeric_limits<double>::max()},
+    {"individual", &Scores::individual, 0, 1},
+    {"global", &Scores::global, 0, 1},
+    {"scaled", &Scores::scaled, 0, 1},
+    {"standard_error", &Scores::standard_error, 0, std::numeric_limits<double>::max()},
+    {"rank_stability", &Scores::rank_stability, -1, 1},
 };
 
 void read_origin(const Hdf5File& file, ScoresOrigin& origin) {
@@ -56,12 +57,12 @@ void check_scores(const std::string& file, const Scores& scores) {
   check_length(file, "count", scores.count.size(), rows);
   // Means of values in [0, 1] may leave it by a rounding.
   constexpr double kRounding = 1e-9;
-  for (const auto& [name, member, largest] : kColumns) {
+  for (const auto& [name, member, smallest, largest] : kColumns) {
     const std::vector<double>& values = scores.*member;
     check_length(file, name, values.size(), rows);
     for (std::size_t row = 0; row < rows; ++row)
-      check(std::isnan(values[row]) || (values[row] >= -kRounding && values[row] <= largest + kRounding), file,
-            ": dataset '", name, "': row ", row, " (", printable(scores.paths[row]), ") is ", values[row],
+      check(std::isnan(values[row]) || (values[row] >= smallest - kRounding && values[row] <= largest + kRounding),
+            file, ": dataset '", name, "': row ", row, " (", printable(scores.paths[row]), ") is ", values[row],
             ", out of range");
   }
   for (std::size_t row = 0; row < rows; ++row)
@@ -99,6 +100,35 @@ void write_scores(const std::filesystem::path& path, const Scores& scores) {
     for (const auto& column : kColumns) file.write<double>(column.name, shape, scores.*column.values);
     file.write<std::uint64_t>("count", shape, scores.count);
     file.write<std::string>("paths", shape, scores.paths);
+    file.close();
+  });
+}
+
+std::filesystem::path snapshot_path(const std::filesystem::path& scores) {
+  std::filesystem::path path = scores;
+  path += ".snapshot";
+  return path;
+}
+
+ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  ScoresSnapshot snapshot{.input_fingerprint = file.text_attribute("", "input_fingerprint"),
+                          .problems = file.number_attribute<std::int64_t>("", "problems")};
+  Hdf5Array<std::uint64_t> sums = file.read<std::uint64_t>("sums");
+  check(sums.shape.size() == 2, file.name(), ": dataset 'sums': has ", sums.shape.size(), " dimensions, expected 2");
+  check(snapshot.problems >= 0, file.name(), ": attribute 'problems': is ", snapshot.problems, ", expected a count");
+  snapshot.views = sums.shape[0];
+  snapshot.sums = std::move(sums.values);
+  return snapshot;
+}
+
+void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot) {
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    Hdf5File file = Hdf5File::create(temporary, path.string());
+    file.write_text_attribute("", "input_fingerprint", snapshot.input_fingerprint);
+    file.write_number_attribute<std::int64_t>("", "problems", snapshot.problems);
+    const auto numbers = snapshot.views == 0 ? 0 : static_cast<Index>(snapshot.sums.size()) / snapshot.views;
+    file.write<std::uint64_t>("sums", {snapshot.views, numbers}, snapshot.sums);
     file.close();
   });
 }

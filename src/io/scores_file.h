@@ -26,14 +26,17 @@ struct Scores : ScoresOrigin {
   std::vector<double> scaled;          // the training target: scaled to [0, 1] among the views of a pose
   std::vector<std::uint64_t> count;    // problems with this view
   std::vector<double> standard_error;  // of `individual`
-  std::vector<std::string> paths;      // as the dataset names its images
+  std::vector<double> rank_stability;  // of the view's pose: Kendall's tau of its views' order between half the
+                                       // problems and the other half, [-1, 1]
+  std::vector<std::string> paths;  // as the dataset names its images
 };
 
-// HDF5. Datasets: `individual`, `global`, `scaled`, `standard_error` (N) float64, `count` (N) uint64, `paths` (N)
-// UTF-8. Attributes of the root: the members of ScoresOrigin, by these names.
+// HDF5. Datasets: `individual`, `global`, `scaled`, `standard_error`, `rank_stability` (N) float64, `count` (N) uint64,
+// `paths` (N) UTF-8. Attributes of the root: the members of ScoresOrigin, by these names.
 
 /// Throws Error that names the file, the dataset and the row unless lengths agree, there is at least one view, scores
-/// are in [0, 1] or NaN, standard errors are not negative or NaN, and views with a count have a global score.
+/// are in [0, 1] or NaN, standard errors are not negative or NaN, rank stabilities in [-1, 1] or NaN, and views with a
+/// count have a global score.
 Scores read_scores(const std::filesystem::path& path);
 
 /// The attributes alone, for deciding whether scores can be used again.
@@ -41,5 +44,24 @@ ScoresOrigin read_scores_origin(const std::filesystem::path& path);
 
 /// Replaces the file as a whole. Throws Error where read_scores would.
 void write_scores(const std::filesystem::path& path, const Scores& scores);
+
+/// What is known while scores are being made, to go on from.
+struct ScoresSnapshot {
+  std::string input_fingerprint;  // as that of the scores to be
+  Index problems = 0;             // solved so far
+  Index views = 0;
+  std::vector<std::uint64_t> sums{};  // (views, numbers of a view), as the solver keeps them
+};
+
+// HDF5. Dataset `sums` (views, numbers) uint64; attributes `input_fingerprint`, `problems`.
+
+/// Where the snapshot of a scores file lies: beside it.
+std::filesystem::path snapshot_path(const std::filesystem::path& scores);
+
+/// Throws Error for a file that is no snapshot.
+ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
+
+/// Replaces the file as a whole.
+void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot);
 
 }  // namespace svnet

@@ -53,13 +53,17 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
   worker.clusterer.cluster(batch_.distances(problem), batch_.categories(problem), scoring_.seed, number, prediction);
   const std::uint64_t global =
       ScoreSums::fixed(worker.scores.score(truth, prediction, scoring_.singletons, individual));
+  const std::uint64_t even = 1 - number % 2;
   for (std::size_t i = 0; i < items; ++i) {
     auto& view = worker.sums.views[rows[i]];
     ++view.count;
     view.global += global;
     if (std::isnan(individual[i])) continue;
     ++view.individual_count;
-    view.individual += ScoreSums::fixed(individual[i]);
+    const std::uint64_t score = ScoreSums::fixed(individual[i]);
+    view.individual += score;
+    view.even_count += even;
+    view.even += even * score;
     view.individual_squared += ScoreSums::fixed(individual[i] * individual[i]);
   }
   ++worker.sums.problems;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "base/error.h"
 
@@ -22,14 +23,10 @@ void ScoreSums::take(ScoreSums& other) {
         " views cannot be added to those of ", views.size());
   problems += other.problems;
   other.problems = 0;
-  for (std::size_t v = 0; v < views.size(); ++v) {
-    View &to = views[v], &from = other.views[v];
-    to.count += from.count;
-    to.individual_count += from.individual_count;
-    to.individual += from.individual;
-    to.individual_squared += from.individual_squared;
-    to.global += from.global;
-    from = View{};
+  const auto to = numbers(), from = other.numbers();
+  for (std::size_t i = 0; i < to.size(); ++i) {
+    to[i] += from[i];
+    from[i] = 0;
   }
 }
 
@@ -52,6 +49,36 @@ SemanticScores scores_from(const ScoreSums& sums) {
     scores.standard_error.push_back(standard_error(view));
   }
   return scores;
+}
+
+std::vector<double> rank_stability(const ScoreSums& sums, std::span<const std::int32_t> pose_of_view) {
+  check(sums.views.size() == pose_of_view.size(), "[scores] sums of ", sums.views.size(), " views, but ",
+        pose_of_view.size(), " poses");
+  struct Halves {
+    double even, odd;
+  };
+  std::map<std::int32_t, std::vector<Halves>> views_of_pose;
+  for (std::size_t v = 0; v < sums.views.size(); ++v) {
+    const auto& view = sums.views[v];
+    const Halves halves{mean(view.even, view.even_count),
+                        mean(view.individual - view.even, view.individual_count - view.even_count)};
+    if (!std::isnan(halves.even) && !std::isnan(halves.odd)) views_of_pose[pose_of_view[v]].push_back(halves);
+  }
+  std::map<std::int32_t, double> tau;
+  for (const auto& [pose, views] : views_of_pose) {
+    if (views.size() < 2) continue;
+    double agreed = 0, pairs = 0;
+    const auto sign = [](double x) { return (x > 0) - (x < 0); };
+    for (std::size_t i = 0; i < views.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j, ++pairs)
+        agreed += sign(views[i].even - views[j].even) * sign(views[i].odd - views[j].odd);
+    tau[pose] = agreed / pairs;
+  }
+  std::vector<double> stability(sums.views.size(), kNaN);
+  for (std::size_t v = 0; v < stability.size(); ++v)
+    if (const auto found = tau.find(pose_of_view[v]); found != tau.end() && sums.views[v].individual_count > 0)
+      stability[v] = found->second;
+  return stability;
 }
 
 std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<const std::int32_t> pose_of_view) {

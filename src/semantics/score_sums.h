@@ -17,6 +17,9 @@ struct ScoreSums {
     std::uint64_t individual = 0;        ///< sum of the individual scores
     std::uint64_t individual_squared = 0;
     std::uint64_t global = 0;  ///< sum of the problems' scores
+    // The individual scores of the problems with even numbers alone, for comparing the two halves.
+    std::uint64_t even_count = 0;
+    std::uint64_t even = 0;
 
     bool operator==(const View&) const = default;
   };
@@ -29,6 +32,15 @@ struct ScoreSums {
 
   /// A score in [0, 1] in fixed point, rounded to nearest.
   static std::uint64_t fixed(double score) { return static_cast<std::uint64_t>(score * 0x1p32 + 0.5); }
+
+  /// Every number but `problems`, view by view.
+  static constexpr Index kNumbersOfView = sizeof(View) / sizeof(std::uint64_t);
+  std::span<std::uint64_t> numbers() {
+    return {reinterpret_cast<std::uint64_t*>(views.data()), views.size() * kNumbersOfView};
+  }
+  std::span<const std::uint64_t> numbers() const {
+    return {reinterpret_cast<const std::uint64_t*>(views.data()), views.size() * kNumbersOfView};
+  }
 
   /// Adds the other state and makes it zero. Throws Error for a different number of views.
   void take(ScoreSums& other);
@@ -46,6 +58,12 @@ SemanticScores scores_from(const ScoreSums& sums);
 
 /// Standard error of the individual mean of one view; NaN for fewer than two scores.
 double standard_error(const ScoreSums::View& sums);
+
+/// How well the order of the views of each pose is known: Kendall's tau between their orders by the individual scores
+/// of the even-numbered problems and of the odd-numbered ones, per view that of its pose. 1: the halves agree on every
+/// pair of views; 0: not more than by chance. NaN without a score in both halves, or without another view that has
+/// them.
+std::vector<double> rank_stability(const ScoreSums& sums, std::span<const std::int32_t> pose_of_view);
 
 /// Scores scaled to [0, 1] among the views of each pose; 0.5 where they are all equal. NaN stays, and counts for
 /// nothing. Throws Error where the lengths differ or a pose is negative.

@@ -9,7 +9,9 @@
 namespace svnet {
 namespace {
 
-constexpr std::uint64_t kBlock = 16384;         // problems between two looks at the stopping rules
+constexpr std::uint64_t kBlock = 16384;         // problems between two looks at the stopping rules, at first
+constexpr std::uint64_t kBlocksPerLook = 128;   // from so many blocks on looks become rarer
+constexpr std::uint64_t kFirstStep = 512;       // problems, before it is known how long they take
 constexpr std::uint64_t kEnoughForError = 100;  // scores below which a standard error is not believed
 
 void check_rules(const ScoreOptions& options) {
@@ -37,9 +39,18 @@ bool exact_enough(const ClusteringProblems& problems, const ScoreOptions& option
   return true;
 }
 
+/// The first number of problems above `problems` at which the rules are looked at.
+std::uint64_t next_look(std::uint64_t problems) {
+  std::uint64_t between = kBlock;
+  while (problems >= between * kBlocksPerLook) between *= 2;
+  return (problems / between + 1) * between;
+}
+
+bool is_look(std::uint64_t problems) { return problems > 0 && next_look(problems - 1) == problems; }
+
 bool finished(const ClusteringProblems& problems, const ScoreOptions& options, const ScoreSums& sums) {
   if (options.problems > 0 && sums.problems >= options.problems) return true;
-  if (sums.problems == 0 || sums.problems % kBlock != 0) return false;
+  if (!is_look(sums.problems)) return false;
   return (options.min_samples > 0 && enough_samples(problems, options, sums)) ||
          (options.target_error > 0 && exact_enough(problems, options, sums));
 }
@@ -52,8 +63,8 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
     for (Index v = 0; v < problems.views(); ++v)
       if (const double share = problems.inclusion_probability(v); share > 0) rarest = std::min(rarest, share);
     const auto needed = static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.min_samples) / rarest));
-    const std::uint64_t whole_blocks = (needed + kBlock - 1) / kBlock * kBlock;
-    expected = expected == 0 ? whole_blocks : std::min(expected, whole_blocks);
+    const std::uint64_t at_look = needed == 0 ? 0 : next_look(needed - 1);
+    expected = expected == 0 ? at_look : std::min(expected, at_look);
   }
   return expected;
 }
@@ -61,26 +72,38 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 }  // namespace
 
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                     Parallel& parallel, ScoreSums& sums, const Messages& messages,
-                     const std::function<void(const ScoreSums&)>& after_block) {
+                     Parallel& parallel, Team& team, ScoreSums& sums, const ScoreProgress& watch) {
   check_rules(options);
   check(static_cast<Index>(sums.views.size()) == problems.views(), "[scores] the sums so far are of ",
         sums.views.size(), " views, the problems of ", problems.views());
   ProblemSolver solver(distances, problems, options.scoring(), parallel);
-  Progress progress(messages, "semantic scores", static_cast<Index>(expected_problems(problems, options)));
+  static const Messages kSilent;
+  const std::uint64_t start = sums.problems, expected = expected_problems(problems, options);
+  Progress progress(watch.messages == nullptr ? kSilent : *watch.messages, "semantic scores",
+                    static_cast<Index>(expected > start ? expected - start : 0));
+  ScoreSums step(problems.views());
   while (!finished(problems, options, sums)) {
-    std::uint64_t border = (sums.problems / kBlock + 1) * kBlock;
-    if (options.problems > 0) border = std::min(border, options.problems);
-    solver.solve(sums.problems, border, sums);
-    progress.update(static_cast<Index>(sums.problems));
-    if (after_block) after_block(sums);
+    const std::uint64_t done = sums.problems - start;
+    const std::uint64_t in_a_quarter =
+        done == 0 ? kFirstStep : static_cast<std::uint64_t>(static_cast<double>(done) / progress.seconds() / 4);
+    std::uint64_t last = std::min(next_look(sums.problems), sums.problems + std::max<std::uint64_t>(in_a_quarter, 1));
+    if (options.problems > 0) last = std::min(last, options.problems);
+    last = team.from_first(last);
+    const Share share = share_of(team, sums.problems, last);
+    solver.solve(share.first, share.last, step);
+    team.sum(step.numbers());
+    step.problems = last - sums.problems;
+    sums.take(step);
+    progress.update(static_cast<Index>(sums.problems - start));
+    if (watch.after_step) watch.after_step(sums);
   }
 }
 
 SemanticScores semantic_scores(const DistanceMatrix& distances, const ClusteringProblems& problems,
                                const ScoreOptions& options, Parallel& parallel, const Messages& messages) {
   ScoreSums sums(problems.views());
-  continue_scores(distances, problems, options, parallel, sums, messages);
+  Alone alone;
+  continue_scores(distances, problems, options, parallel, alone, sums, {.messages = &messages, .after_step = {}});
   return scores_from(sums);
 }
 

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
+#include "base/team.h"
 #include "semantics/problem_solver.h"
 
 namespace svnet {
@@ -22,13 +23,20 @@ struct ScoreOptions {
   ProblemScoring scoring() const { return {seed, singletons, clustering}; }
 };
 
-/// Continues `sums`, which hold the problems numbered from 0 to sums.problems - 1, until the options say stop. Only at
-/// multiples of 16384 problems is asked whether min_samples or target_error is reached, so that the result depends
-/// neither on the number of threads nor on interruptions. `after_block`, if any, is called at each border and at the
-/// end: to save a snapshot. Throws Error for options that cannot be followed.
+/// What goes on while scores are computed.
+struct ScoreProgress {
+  const Messages* messages = nullptr;
+  /// Called about four times a second and at the end, in every process of the team: to save a snapshot.
+  std::function<void(const ScoreSums&)> after_step;
+};
+
+/// Continues `sums`, which hold the problems numbered from 0 to sums.problems - 1, until the options say stop. Whether
+/// min_samples or target_error is reached is asked at multiples of 16384 problems, from 2^21 problems on only at
+/// multiples of 2^15, from 2^22 on of 2^16, and so on: the result depends neither on the number of threads or processes
+/// nor on interruptions. Every process of the team holds the same sums, before and after. Throws Error for options that
+/// cannot be followed.
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                     Parallel& parallel, ScoreSums& sums, const Messages& messages = {},
-                     const std::function<void(const ScoreSums&)>& after_block = {});
+                     Parallel& parallel, Team& team, ScoreSums& sums, const ScoreProgress& watch = {});
 
 /// Semantic scores of every view by Monte-Carlo (PAPER.md section 4): for each, the mean of its Fowlkes-Mallows scores,
 /// individual and global, over the random problems that contain it. Views of excluded categories get count 0 and NaN.

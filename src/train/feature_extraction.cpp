@@ -43,7 +43,7 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
 }
 
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages) {
+                          const Messages& messages, Team& team) {
   const auto count = static_cast<Index>(dataset.views.size());
   const Index dimension = backbone.dimension(), pixels = backbone.preprocessing().size();
   Features features{origin, count, dimension, {}, {}, {}};
@@ -52,8 +52,12 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
-  Progress progress(messages, "features of " + backbone.kind().name, count);
-  for (Index begin = 0; begin < count; begin += kBatch) {
+  // Shares are whole batches, so that the batches are the same for any number of processes.
+  const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
+  const Index first = static_cast<Index>(share.first) * kBatch;
+  const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
+  Progress progress(messages, "features of " + backbone.kind().name, std::max<Index>(last - first, 0));
+  for (Index begin = first; begin < last; begin += kBatch) {
     const Index size = std::min(kBatch, count - begin);
     Tensor batch = Tensor::empty({size, backbone.preprocessing().height, backbone.preprocessing().width, 3});
     Parallel::shared().for_chunks(size, 1, [&](Index i, Index, int) {
@@ -66,8 +70,9 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
             dataset.views[static_cast<std::size_t>(begin + i / dimension)].path,
             " is not finite: the weights do not fit this network");
     std::copy_n(values.data<float>(), values.size(), features.values.data() + begin * dimension);
-    progress.update(begin + size);
+    progress.update(begin + size - first);
   }
+  team.gather(features.values);
   return features;
 }
 

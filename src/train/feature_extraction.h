@@ -1,5 +1,6 @@
 #pragma once
 #include "base/progress.h"
+#include "base/team.h"
 #include "io/features_file.h"
 #include "io/view_dataset.h"
 #include "models/backbone.h"
@@ -8,9 +9,10 @@ namespace svnet {
 
 /// Features of every view of the dataset, in its order. Pictures are read and prepared in parallel, then a batch runs
 /// through the backbone; batches have a fixed size, so the result is the same for any number of threads. A picture's
-/// neighbours in its batch may change its features' last bits. `origin` is copied into the result.
+/// neighbours in its batch may change its features' last bits. `origin` is copied into the result. A team shares the
+/// batches; each of its processes gets all features, with the same bits as one process alone.
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages);
+                          const Messages& messages, Team& team);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const Preprocessing& preprocessing);

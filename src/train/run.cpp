@@ -96,7 +96,8 @@ Features Run::made_features(const fs::path& path, const std::string& name, const
       say(joined("features of ", name, ": reused ", path.filename().string()));
       return std::move(*features);
     }
-  Features features = extract_features(source.backbone, dataset_, origin, messages_);
+  Alone alone;
+  Features features = extract_features(source.backbone, dataset_, origin, messages_, alone);
   write_features(path, features);
   return features;
 }

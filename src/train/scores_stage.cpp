@@ -1,6 +1,10 @@
 #include "train/scores_stage.h"
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <iomanip>
+#include <limits>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -56,8 +60,51 @@ std::string scores_fingerprint(const std::string& features_fingerprint, const Co
   return hash.hex();
 }
 
+namespace {
+
+/// The sums of a snapshot of the same scores.
+ScoreSums resumed_sums(const std::filesystem::path& path, const std::string& fingerprint, Index views) {
+  const ScoresSnapshot snapshot = read_scores_snapshot(path);
+  check(snapshot.input_fingerprint == fingerprint, path.string(),
+        ": a snapshot of other scores (other features, options or seed); repeat the command that made it, or leave out "
+        "--resume");
+  ScoreSums sums(views);
+  const auto numbers = sums.numbers();
+  check(snapshot.views == views && snapshot.sums.size() == numbers.size(), path.string(), ": dataset 'sums': has ",
+        snapshot.sums.size(), " numbers of ", snapshot.views, " views, expected ", numbers.size(), " of ", views);
+  std::copy(snapshot.sums.begin(), snapshot.sums.end(), numbers.begin());
+  sums.problems = static_cast<std::uint64_t>(snapshot.problems);
+  return sums;
+}
+
+/// Writes a snapshot when the last one is old enough.
+class Snapshots {
+ public:
+  Snapshots(const std::filesystem::path& path, double seconds, const std::string& fingerprint)
+      : path_(path), seconds_(seconds), fingerprint_(fingerprint), last_(Clock::now()) {}
+
+  void offer(const ScoreSums& sums) {
+    if (path_.empty() || std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
+    const auto numbers = sums.numbers();
+    write_scores_snapshot(path_, {fingerprint_,
+                                  static_cast<Index>(sums.problems),
+                                  static_cast<Index>(sums.views.size()),
+                                  {numbers.begin(), numbers.end()}});
+    last_ = Clock::now();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::filesystem::path path_;
+  double seconds_;
+  std::string fingerprint_;
+  Clock::time_point last_;
+};
+
+}  // namespace
+
 Scores make_scores(const ViewDataset& dataset, const Features& features, const std::vector<bool>& excluded,
-                   const Config& config, const Messages& messages) {
+                   const Config& config, const Messages& messages, const ScoresRun& run) {
   const auto& s = config.scores;
   const DistanceMatrix distances =
       squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared());
@@ -69,22 +116,59 @@ Scores make_scores(const ViewDataset& dataset, const Features& features, const s
       .seed = static_cast<std::uint64_t>(config.seed),
       .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
       .clustering = clustering_options(s.clustering, features.dimension)};
-  SemanticScores made = semantic_scores(distances, problems, options, Parallel::shared(), messages);
+  const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
+
+  Alone alone;
+  Team& team = run.team == nullptr ? alone : *run.team;
+  ScoreSums sums(problems.views());
+  if (run.resume && std::filesystem::exists(run.snapshot)) {
+    sums = resumed_sums(run.snapshot, fingerprint, problems.views());
+    if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
+  }
+  Snapshots snapshots(team.rank() == 0 ? run.snapshot : std::filesystem::path(), run.snapshot_seconds, fingerprint);
+  continue_scores(distances, problems, options, Parallel::shared(), team, sums,
+                  {&messages, [&](const ScoreSums& so_far) { snapshots.offer(so_far); }});
+  SemanticScores made = scores_from(sums);
 
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
                              .seed = options.seed,
                              .sampler = sampler_text(s),
                              .clustering = clustering_name(s.clustering),
                              .metric = "fm",
-                             .input_fingerprint = scores_fingerprint(features.input_fingerprint, config)},
+                             .input_fingerprint = fingerprint},
                 std::move(made.individual),
                 std::move(made.global),
                 {},
                 std::move(made.count),
                 std::move(made.standard_error),
+                rank_stability(sums, problems.pose_of_view()),
                 features.paths};
   scores.scaled = scaled_per_pose(scores.individual, problems.pose_of_view());
   return scores;
+}
+
+std::string certainty_text(const Scores& scores) {
+  double largest = 0, error_sum = 0, scored = 0, stability_sum = 0, ranked = 0;
+  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max();
+  for (std::size_t v = 0; v < scores.paths.size(); ++v) {
+    if (scores.count[v] > 0) fewest = std::min(fewest, scores.count[v]);
+    if (!std::isnan(scores.standard_error[v])) {
+      largest = std::max(largest, scores.standard_error[v]);
+      error_sum += scores.standard_error[v];
+      ++scored;
+    }
+    if (!std::isnan(scores.rank_stability[v])) {
+      stability_sum += scores.rank_stability[v];
+      ++ranked;
+    }
+  }
+  if (scored == 0) return "too few problems to say how well the scores are known";
+  std::string text = joined("every view was in at least ", fewest, " problems; standard error ", std::setprecision(2),
+                            error_sum / scored, " on average, ", largest, " at most");
+  if (ranked > 0)
+    text += joined("\nrank stability of the views of a pose (Kendall's tau between halves of the problems): ",
+                   std::setprecision(3), stability_sum / ranked, " on average");
+  return text;
 }
 
 }  // namespace svnet

@@ -28,6 +28,7 @@ Scores example() {
   scores.scaled = {0, 1, kNone};
   scores.count = {12, UINT64_MAX, 0};
   scores.standard_error = {0.01, 0, kNone};
+  scores.rank_stability = {-0.5, -0.5, kNone};
   scores.paths = {"a", "b", "c"};
   return scores;
 }
@@ -39,7 +40,8 @@ TEST_CASE("scores are read as they were written, views without a score too") {
   const auto path = folder.path() / "scores.h5";
   write_scores(path, example());
   const Scores scores = read_scores(path), expected = example();
-  for (const auto member : {&Scores::individual, &Scores::global, &Scores::scaled, &Scores::standard_error}) {
+  for (const auto member :
+       {&Scores::individual, &Scores::global, &Scores::scaled, &Scores::standard_error, &Scores::rank_stability}) {
     const std::vector<double>&values = scores.*member, &right = expected.*member;
     REQUIRE(values.size() == 3);
     CHECK(values[0] == right[0]);
@@ -56,8 +58,8 @@ TEST_CASE("scores are read as they were written, views without a score too") {
     CHECK(origin.metric == "fm");
     CHECK(origin.input_fingerprint == "ef56");
   }
-  CHECK(Hdf5File::open(path).members("") ==
-        std::vector<std::string>{"count", "global", "individual", "paths", "scaled", "standard_error"});
+  CHECK(Hdf5File::open(path).members("") == std::vector<std::string>{"count", "global", "individual", "paths",
+                                                                     "rank_stability", "scaled", "standard_error"});
 }
 
 TEST_CASE("scores that cannot be true are refused, written or read") {
@@ -79,6 +81,7 @@ TEST_CASE("scores that cannot be true are refused, written or read") {
   CHECK_THAT(message([](Scores& s) { s.scaled[0] = std::numeric_limits<double>::infinity(); }),
              Contains("'scaled': row 0 (a) is inf"));
   CHECK_THAT(message([](Scores& s) { s.standard_error[2] = -1; }), Contains("'standard_error': row 2 (c) is -1"));
+  CHECK_THAT(message([](Scores& s) { s.rank_stability[1] = -1.5; }), Contains("'rank_stability': row 1 (b) is -1.5"));
   CHECK_THAT(message([](Scores& s) { s.global[0] = kNone; }),
              Contains("'global': row 0 (a) has no score although it was in 12 problems"));
   CHECK_THAT(message([](Scores& s) { s.count.pop_back(); }), Contains("'count': has 2 rows, 'paths' has 3"));
@@ -89,4 +92,18 @@ TEST_CASE("scores that cannot be true are refused, written or read") {
   file.write_number_attribute<std::int64_t>("", "problems", -1);
   file.close();
   CHECK_THROWS_WITH(read_scores(path), Contains("s.h5: attribute 'problems': is -1, expected a count"));
+}
+
+TEST_CASE("a snapshot of scores is read as it was written, and nothing else is taken for one") {
+  const TemporaryFolder folder;
+  const auto path = snapshot_path(folder.path() / "scores.h5");
+  CHECK(path.filename() == "scores.h5.snapshot");
+  write_scores_snapshot(path, {"ab12", 123456789012345, 2, {1, 2, 3, UINT64_MAX, 5, 6}});
+  const ScoresSnapshot snapshot = read_scores_snapshot(path);
+  CHECK(snapshot.input_fingerprint == "ab12");
+  CHECK(snapshot.problems == 123456789012345);
+  CHECK(snapshot.views == 2);
+  CHECK(snapshot.sums == std::vector<std::uint64_t>{1, 2, 3, UINT64_MAX, 5, 6});
+  write_scores(path, example());
+  CHECK_THROWS_WITH(read_scores_snapshot(path), Contains("scores.h5.snapshot") && Contains("'sums'"));
 }

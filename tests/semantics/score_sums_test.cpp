@@ -64,6 +64,29 @@ TEST_CASE("sums of parts are the sums of the whole, and taking leaves nothing") 
   CHECK_THROWS_WITH(left.take(other), "[scores] sums of 3 views cannot be added to those of 2");
 }
 
+TEST_CASE("rank stability is the agreement of the halves on pairs of views") {
+  ScoreSums sums(6);
+  const auto set = [&](std::size_t view, double even, double odd) {
+    auto& v = sums.views[view];
+    v.count = v.individual_count = 2;
+    v.even_count = 1;
+    v.even = ScoreSums::fixed(even);
+    v.individual = v.even + ScoreSums::fixed(odd);
+  };
+  set(0, 0.1, 0.2);
+  set(1, 0.3, 0.1);  // the halves order 0 and 1 differently
+  set(2, 0.9, 0.8);
+  set(3, 0.5, 0.5);
+  set(4, 0.6, 0.7);
+  const std::vector<std::int32_t> pose{0, 0, 0, 1, 1, 1};
+  const auto stability = rank_stability(sums, pose);
+  for (const std::size_t view : {0, 1, 2}) CHECK(stability[view] == Approx(1.0 / 3));
+  for (const std::size_t view : {3, 4}) CHECK(stability[view] == 1);
+  CHECK(std::isnan(stability[5]));                                                          // no score at all
+  CHECK(std::isnan(rank_stability(sums, std::vector<std::int32_t>{0, 0, 0, 1, 2, 2})[3]));  // alone in its pose
+  CHECK_THROWS_WITH(rank_stability(sums, std::vector<std::int32_t>{0}), "[scores] sums of 6 views, but 1 poses");
+}
+
 TEST_CASE("scores are scaled to [0, 1] among the views of each pose") {
   const std::vector<double> scores{0.2, 0.5, 0.4, kNaN, 0.9, 0.3, 0.3, kNaN, 0.6};
   const std::vector<std::int32_t> pose{0, 2, 0, 0, 0, 1, 1, 3, 2};

@@ -1,0 +1,63 @@
+#include "mpi/mpi_team.h"
+
+#define OMPI_SKIP_MPICXX 1  // not the C++ interface of long ago
+#include <algorithm>
+
+#include <mpi.h>
+
+#include "launcher.h"
+
+namespace svnet {
+namespace {
+
+/// Errors end all processes: MPI_ERRORS_ARE_FATAL, the default.
+class MpiTeam : public Team {
+ public:
+  MpiTeam() {
+    MPI_Init(nullptr, nullptr);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiTeam() override { MPI_Finalize(); }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  void sum(std::span<std::uint64_t> values) override { all_reduce(values, MPI_UINT64_T); }
+  /// As integers, which keeps every bit.
+  void gather(std::span<float> values) override {
+    static_assert(sizeof(float) == sizeof(std::uint32_t));
+    all_reduce(values, MPI_UINT32_T);
+  }
+  std::uint64_t from_first(std::uint64_t value) override {
+    MPI_Bcast(&value, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    return value;
+  }
+
+ private:
+  template <class T>
+  static void all_reduce(std::span<T> values, MPI_Datatype type) {
+    constexpr std::size_t kMost = std::size_t{1} << 28;  // counts are ints
+    for (std::size_t first = 0; first < values.size(); first += kMost)
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, static_cast<int>(std::min(kMost, values.size() - first)), type,
+                    MPI_SUM, MPI_COMM_WORLD);
+  }
+
+  int rank_ = 0, size_ = 1;
+};
+
+}  // namespace
+
+bool built_with_mpi() { return true; }
+
+int main_of_team(int argc, char** argv, const char*, int (*run)(int argc, char** argv, Team& team)) {
+  if (!started_by_launcher()) {
+    Alone alone;
+    return run(argc, argv, alone);
+  }
+  MpiTeam team;
+  const int status = run(argc, argv, team);
+  if (status != 0 && team.size() > 1) MPI_Abort(MPI_COMM_WORLD, status);
+  return status;
+}
+
+}  // namespace svnet
