@@ -2,19 +2,16 @@
 // Distances to means from distances between points: Schoenberg 1935; the "kernel k-means" form of Lloyd.
 #include "semantics/kmeans.h"
 
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 
 #include "base/error.h"
+#include "semantics/kmeans_kernels.h"
 
 namespace svnet {
 namespace {
-
-using Row = Eigen::Map<Eigen::ArrayXd>;
-using Distances = Eigen::Map<const Eigen::ArrayXf>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -27,15 +24,17 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
       options_(options),
       distance_(max_points),
       initial_(max_clusters),
-      closest_(max_points),
+      closest_(max_points + 31),
       cumulative_(max_points),
-      cluster_sum_(static_cast<std::size_t>(max_clusters * max_points)),
+      cluster_sum_(static_cast<std::size_t>(max_clusters * (max_points + 31))),
       cluster_size_(max_clusters),
       half_spread_(max_clusters),
       shift_(max_clusters),
+      scale_(max_clusters),
       behind_(max_points),
       next_behind_(max_points),
-      nearest_(max_points),
+      nearest_(max_points + 31),
+      nearest_number_(max_points + 31),
       labels_(max_points),
       previous_labels_(max_points),
       members_(max_clusters),
@@ -116,30 +115,30 @@ double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
 }
 
 void KMeans::choose_initial(RandomStream& random) {
-  const auto distances_to = [&](Index point) { return Distances(distance_.row(point), n_).cast<double>(); };
-  Row closest(closest_.data(), n_);
   initial_[0] = static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n_)));
-  closest = distances_to(initial_[0]);
+  std::copy_n(distance_.row(initial_[0]), n_, closest_.data());
+  std::fill_n(closest_.data() + n_, 31, 0.0f);
   const Index trials = 2 + static_cast<Index>(std::log(static_cast<double>(k_)));
   for (Index c = 1; c < k_; ++c) {
-    std::partial_sum(closest_.begin(), closest_.begin() + n_, cumulative_.begin());
+    double sum = 0;
+    for (Index i = 0; i < n_; ++i) cumulative_[i] = sum += closest_[i];
     double best = kInfinity;
     for (Index trial = 0; trial < trials; ++trial) {
-      const double target = random.uniform() * cumulative_[n_ - 1];
+      const double target = random.uniform() * sum;
       const Index found = std::lower_bound(cumulative_.begin(), cumulative_.begin() + n_, target) - cumulative_.begin();
       const Index candidate = std::min(found, n_ - 1);
-      const double potential = closest.min(distances_to(candidate)).sum();
+      const double potential = kmeans::potential(closest_.data(), distance_.row(candidate), n_);
       if (potential < best) {
         best = potential;
         initial_[c] = static_cast<std::int32_t>(candidate);
       }
     }
-    closest = closest.min(distances_to(initial_[c]));
+    kmeans::take_minimum(distance_.row(initial_[c]), n_, closest_.data());
   }
 }
 
 double KMeans::lloyd(std::span<std::int32_t> labels) {
-  const auto inertia = [&] { return std::accumulate(nearest_.begin(), nearest_.begin() + n_, 0.0); };
+  const auto inertia = [&] { return std::accumulate(nearest_.data(), nearest_.data() + n_, 0.0); };
   start_at_initial();
   std::fill_n(previous_labels_.begin(), n_, -1);
   for (Index iteration = 0; iteration < options_.max_iterations; ++iteration) {
@@ -160,30 +159,22 @@ double KMeans::lloyd(std::span<std::int32_t> labels) {
 void KMeans::start_at_initial() {
   std::fill_n(behind_.begin(), n_, -1);
   for (Index c = 0; c < k_; ++c) {
-    Row(&cluster_sum_[c * n_], n_) = Distances(distance_.row(initial_[c]), n_).cast<double>();
+    std::copy_n(distance_.row(initial_[c]), n_, sum_of(c));
     cluster_size_[c] = 1;
     half_spread_[c] = 0;
   }
 }
 
 double KMeans::to_centre(Index point, Index cluster) const {
-  return cluster_sum_[cluster * n_ + point] / cluster_size_[cluster] - half_spread_[cluster];
+  return sum_of(cluster)[point] / cluster_size_[cluster] - half_spread_[cluster];
 }
 
 /// The nearest centre of every point; of equally near ones the first.
 void KMeans::assign(std::span<std::int32_t> labels) {
-  std::fill_n(nearest_.begin(), n_, kInfinity);
-  for (Index c = 0; c < k_; ++c) {
-    if (cluster_size_[c] == 0) continue;
-    const double* sum = &cluster_sum_[c * n_];
-    const double scale = 1 / cluster_size_[c], half_spread = half_spread_[c];
-    for (Index i = 0; i < n_; ++i) {
-      const double distance = std::max(0.0, sum[i] * scale - half_spread);
-      const bool nearer = distance < nearest_[i];
-      nearest_[i] = nearer ? distance : nearest_[i];
-      labels[i] = nearer ? static_cast<std::int32_t>(c) : labels[i];
-    }
-  }
+  for (Index c = 0; c < k_; ++c) scale_[c] = cluster_size_[c] == 0 ? 0 : 1 / cluster_size_[c];
+  kmeans::assign(cluster_sum_.data(), distance_.stride(), scale_.data(), half_spread_.data(), k_, n_, nearest_.data(),
+                 nearest_number_.data());
+  for (Index i = 0; i < n_; ++i) labels[i] = static_cast<std::int32_t>(nearest_number_[i]);
 }
 
 /// next_behind_: the labels, except that clusters without a point take the farthest points. shift_[c] becomes the sum
@@ -216,23 +207,22 @@ void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
 /// an old centre to the mean of S is the mean squared distance of S to the old centre, less half the spread of S.
 double KMeans::move_centres() {
   if (behind_[0] < 0) {  // the centres are initial points so far
-    std::fill_n(cluster_sum_.begin(), k_ * n_, 0.0);
+    std::fill_n(cluster_sum_.data(), k_ * distance_.stride(), 0.0);
     std::fill_n(cluster_size_.begin(), k_, 0.0);
   }
   for (Index i = 0; i < n_; ++i) {
     const std::int32_t from = behind_[i], to = next_behind_[i];
     if (from == to) continue;
-    const auto distances = Distances(distance_.row(i), n_).cast<double>();
     if (from >= 0) {
-      Row(&cluster_sum_[from * n_], n_) -= distances;
+      kmeans::add_row(distance_.row(i), -1, n_, sum_of(from));
       --cluster_size_[from];
     }
-    Row(&cluster_sum_[to * n_], n_) += distances;
+    kmeans::add_row(distance_.row(i), 1, n_, sum_of(to));
     ++cluster_size_[to];
     behind_[i] = to;
   }
   std::fill_n(half_spread_.begin(), k_, 0.0);
-  for (Index i = 0; i < n_; ++i) half_spread_[behind_[i]] += cluster_sum_[behind_[i] * n_ + i];
+  for (Index i = 0; i < n_; ++i) half_spread_[behind_[i]] += sum_of(behind_[i])[i];
   double total = 0;
   for (Index c = 0; c < k_; ++c) {
     if (cluster_size_[c] == 0) continue;

@@ -52,18 +52,23 @@ class KMeans {
   void fill_empty_clusters(std::span<const std::int32_t> labels);
   double move_centres();
   double to_centre(Index point, Index cluster) const;
+  double* sum_of(Index cluster) { return cluster_sum_.data() + cluster * distance_.stride(); }
+  const double* sum_of(Index cluster) const { return cluster_sum_.data() + cluster * distance_.stride(); }
 
   Index max_points_, max_clusters_, dimension_;
   KMeansOptions options_;
   Index n_ = 0, k_ = 0;
-  double tolerance_ = 0;                      // options_.tolerance times the mean variance of the features
-  ProblemDistances distance_;                 // (n, n)
-  std::vector<std::int32_t> initial_;         // (k) points
-  std::vector<double> closest_, cumulative_;  // (n) k-means++: squared distance to the nearest centre
-  std::vector<double> cluster_sum_;           // (k, n) sum of D_ij over the points j behind centre c
+  double tolerance_ = 0;               // options_.tolerance times the mean variance of the features
+  ProblemDistances distance_;          // (n, n)
+  std::vector<std::int32_t> initial_;  // (k) points
+  AlignedArray<float> closest_;        // (n) k-means++: squared distance to the nearest centre
+  std::vector<double> cumulative_;     // (n) its sums
+  AlignedArray<double> cluster_sum_;   // (k, stride) sum of D_ij over the points j behind centre c
   std::vector<double> cluster_size_, half_spread_, shift_;  // (k) half_spread_: 1/2 mean_{j,l} D_jl
+  std::vector<double> scale_;                               // (k) 1 / cluster_size_, or 0
   std::vector<std::int32_t> behind_, next_behind_;          // (n) the centre that a point is averaged into
-  std::vector<double> nearest_;                             // (n) squared distance to the centre of the label
+  AlignedArray<double> nearest_;                            // (n) squared distance to the centre of the label
+  AlignedArray<double> nearest_number_;                     // (n) the label as a float
   std::vector<std::int32_t> labels_, previous_labels_;      // (n)
   std::vector<std::int32_t> members_;                       // (k) points behind the next centre
   std::vector<std::int32_t> number_;                        // (k) of a cluster, in order of first appearance
