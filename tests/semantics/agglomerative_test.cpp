@@ -2,8 +2,12 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
+#include <tuple>
 
+#include "base/cpu.h"
 #include "base/error.h"
 #include "semantics/allocations.h"
 #include "semantics/clustering_fixtures.h"
@@ -108,6 +112,57 @@ TEST_CASE("partitions are those of scikit-learn") {
   CHECK(compared >= 50);
 }
 
+namespace {
+
+/// The random numbers of make_partition_fixtures.py.
+struct SplitMix64 {
+  std::uint64_t state;
+
+  std::uint32_t below(std::uint32_t n) {
+    std::uint64_t z = state += 0x9E3779B97F4A7C15;
+    z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
+    z = (z ^ (z >> 27)) * 0x94D049BB133111EB;
+    return static_cast<std::uint32_t>((z ^ (z >> 31)) >> 32) % n;
+  }
+};
+
+std::uint32_t fnv1a(const std::vector<std::int32_t>& labels) {
+  std::uint32_t value = 0x811C9DC5;
+  for (std::int32_t label : labels) value = (value ^ static_cast<std::uint32_t>(label)) * 0x01000193;
+  return value;
+}
+
+}  // namespace
+
+TEST_CASE("partitions of 1000 problems are those of scikit-learn, for each linkage") {
+  std::ifstream file(SVNET_FIXTURES "/partitions.txt");
+  std::uint64_t problem = 0;
+  for (std::string line; std::getline(file, line); ++problem) {
+    SplitMix64 random{problem};
+    const Index n = 5 + random.below(96), dimension = 4 + random.below(29), groups = 1 + random.below(12);
+    const Index k = 1 + random.below(static_cast<std::uint32_t>(n));
+    std::vector<std::uint32_t> centres(groups * dimension);
+    for (auto& value : centres) value = random.below(1 << 16);
+    std::vector<float> points;
+    for (Index i = 0; i < n; ++i) {
+      const std::uint32_t* centre = &centres[random.below(static_cast<std::uint32_t>(groups)) * dimension];
+      for (Index d = 0; d < dimension; ++d) points.push_back(static_cast<float>(centre[d] + random.below(1 << 16)));
+    }
+    std::istringstream words(line);
+    Index given_n = 0, given_dimension = 0, given_k = 0;
+    words >> given_n >> given_dimension >> given_k >> std::hex;
+    REQUIRE(std::tuple(given_n, given_dimension, given_k) == std::tuple(n, dimension, k));
+    const DistanceMatrix distances = distances_of(points, dimension);
+    for (Linkage linkage : kLinkages) {
+      std::uint32_t expected = 0;
+      REQUIRE(words >> expected);
+      INFO("problem " << problem << ", " << linkage_name(linkage) << ", " << n << " points, " << k << " clusters");
+      CHECK(fnv1a(clustered(linkage, distances, all_rows(n), k)) == expected);
+    }
+  }
+  CHECK(problem == 1000);
+}
+
 TEST_CASE("every linkage agrees with the naive algorithm on subsets of rows in any order") {
   const Index n = 60, dimension = 6;
   const auto values = random_points(n, dimension, 6, 21);
@@ -157,6 +212,31 @@ TEST_CASE("of equal pairs the one with the lowest clusters is merged") {
   CHECK(clustered(Linkage::single, line({0, 3, -2, 2}), {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 1, 0});
   const DistanceMatrix same = line({7, 7, 7, 7});
   CHECK(clustered(Linkage::ward, same, {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 0, 1});
+}
+
+TEST_CASE("every instruction set gives the same partitions, ties too, and the same distances but for the last bit") {
+  const Index n = 70, dimension = 5;
+  auto values = random_points(n, dimension, 5, 25);
+  for (auto& value : values) value = std::round(2 * value);  // many equal distances
+  const DistanceMatrix expected = distances_of(values, dimension);
+  const auto sets = instruction_sets();
+  std::vector<std::vector<std::int32_t>> partitions;
+  for (const auto& set : sets) {
+    INFO(set);
+    cap_instruction_set(set);
+    const DistanceMatrix distances = distances_of(values, dimension);
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < n; ++j) REQUIRE(distances(i, j) == Approx(expected(i, j)).epsilon(1e-7));
+    std::vector<std::int32_t> all;
+    for (Linkage linkage : kLinkages)
+      for (Index k : {1, 2, 9, 40}) {
+        const auto labels = clustered(linkage, expected, all_rows(n), k);
+        all.insert(all.end(), labels.begin(), labels.end());
+      }
+    partitions.push_back(all);
+    CHECK(partitions.back() == partitions.front());
+  }
+  cap_instruction_set(sets.front());
 }
 
 TEST_CASE("agglomerative clustering allocates nothing") {

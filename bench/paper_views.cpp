@@ -1,0 +1,74 @@
+// svnet_paper_views FOLDER: a dataset of the paper's size, for timing svnet-score. Writes FOLDER/data, 24 categories of
+// 5 objects in 3 poses of 21 views whose files are no pictures (scoring never opens them as such), and
+// FOLDER/features.h5, 2048 numbers per view drawn around a centre of each category.
+#include <fstream>
+#include <iostream>
+
+#include "base/error.h"
+#include "base/random.h"
+#include "io/features_file.h"
+#include "io/view_dataset.h"
+
+namespace svnet {
+namespace {
+
+constexpr Index kDimension = 2048;
+
+void write_data(const std::filesystem::path& root) {
+  for (int view = 0; view < 24 * 5 * 3; ++view) {
+    const auto folder = root / std::to_string(view / 15) / std::to_string(view / 3 % 5) / std::to_string(view % 3);
+    std::filesystem::create_directories(folder);
+    int views = 0;
+    for (const int phi : {90, 45, 60, 75})
+      for (const int theta : {90, 0, 45, 135, 180, 225, 315})
+        if ((phi < 90 || theta == 90) && views++ < 21)
+          std::ofstream(folder / (std::to_string(phi) + "_" + std::to_string(theta) + ".png")) << view << " " << views;
+  }
+}
+
+void write_paper_views(const std::filesystem::path& folder) {
+  write_data(folder / "data");
+  const ViewDataset dataset = read_view_dataset(folder / "data");
+  Features features{{.backbone = "random",
+                     .output = "random",
+                     .preprocessing = "none",
+                     .weights_sha256 = "random, seed 1",
+                     .dataset_fingerprint = fingerprint(dataset, Parallel::shared()),
+                     .input_fingerprint = "svnet_paper_views 1"},
+                    static_cast<Index>(dataset.views.size()),
+                    kDimension,
+                    {},
+                    {},
+                    {}};
+  features.values.resize(static_cast<std::size_t>(features.count * kDimension));
+  Parallel::shared().for_chunks(features.count, 16, [&](Index begin, Index end, int) {
+    for (Index v = begin; v < end; ++v) {
+      RandomStream centre(1, Stream::shuffle, static_cast<std::uint64_t>(dataset.views[v].category));
+      RandomStream noise(1, Stream::weights, static_cast<std::uint64_t>(v));
+      for (Index d = 0; d < kDimension; ++d)
+        features.values[v * kDimension + d] = static_cast<float>(centre.normal() + 6 * noise.normal());
+    }
+  });
+  for (const View& view : dataset.views) {
+    features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+    features.paths.push_back(view.path);
+  }
+  write_features(folder / "features.h5", features);
+}
+
+}  // namespace
+}  // namespace svnet
+
+int main(int argc, char** argv) {
+  if (argc != 2) {
+    std::cerr << "usage: svnet_paper_views FOLDER\n";
+    return 2;
+  }
+  try {
+    svnet::write_paper_views(argv[1]);
+    return 0;
+  } catch (const std::exception& error) {
+    std::cerr << "svnet_paper_views: " << error.what() << std::endl;
+    return 1;
+  }
+}
