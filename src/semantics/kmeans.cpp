@@ -88,6 +88,7 @@ void KMeans::start(Index points, Index k) {
     float* row = distance_.row(i);
     for (Index j = 0; j < i; ++j) total += distance_.row(j)[i] = row[j];
     row[i] = 0;
+    std::fill_n(row + n_, (n_ + 15) / 16 * 16 - n_, 0.0f);  // a triangle's paddings hold anything
   }
   // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
   const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));

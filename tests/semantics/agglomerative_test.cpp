@@ -239,6 +239,21 @@ TEST_CASE("every instruction set gives the same partitions, ties too, and the sa
   cap_instruction_set(sets.front());
 }
 
+TEST_CASE("agglomerative clustering of a triangle does not look at its paddings") {
+  const Index n = 37;
+  const DistanceMatrix distances = distances_of(random_points(n, 4, 5, 26), 4);
+  std::vector<std::int32_t> labels(n);
+  for (Linkage linkage : kLinkages)
+    for (const float padding : {0.0f, -1e30f, std::nanf("")}) {
+      AlignedArray<float> values(static_cast<std::size_t>(LowerTriangle::size(n)));
+      std::fill_n(values.data(), LowerTriangle::size(n), padding);
+      for (Index i = 0; i < n; ++i)
+        for (Index j = 0; j < i; ++j) values[LowerTriangle::row_offset(i) + j] = distances(i, j);
+      Agglomerative(linkage, n).cluster(LowerTriangle{values.data(), n}, 6, labels);
+      CHECK(labels == clustered(linkage, distances, all_rows(n), 6));
+    }
+}
+
 TEST_CASE("agglomerative clustering allocates nothing") {
   const DistanceMatrix distances = distances_of(random_points(30, 3, 3, 23), 3);
   const auto rows = all_rows(30);

@@ -137,6 +137,22 @@ TEST_CASE("k-means copes with as many clusters as points, one cluster, and point
   CHECK(labels == std::vector<std::int32_t>{0, 0, 0, 1, 1, 1});
 }
 
+TEST_CASE("k-means from a triangle does not look at its paddings") {
+  const Index n = 37;
+  const DistanceMatrix distances = distances_of(random_points(n, 4, 5, 35), 4);
+  std::vector<std::int32_t> expected(n), labels(n);
+  KMeans kmeans(n, 6, 4, {.n_init = 3});
+  const double inertia = kmeans.cluster(distances, all_rows(n), 6, stream(1), expected);
+  for (const float padding : {0.0f, -1e30f, std::nanf("")}) {
+    AlignedArray<float> values(static_cast<std::size_t>(LowerTriangle::size(n)));
+    std::fill_n(values.data(), LowerTriangle::size(n), padding);
+    for (Index i = 0; i < n; ++i)
+      for (Index j = 0; j < i; ++j) values[LowerTriangle::row_offset(i) + j] = distances(i, j);
+    CHECK(kmeans.cluster(LowerTriangle{values.data(), n}, 6, stream(1), labels) == inertia);
+    CHECK(labels == expected);
+  }
+}
+
 TEST_CASE("k-means allocates nothing") {
   const DistanceMatrix distances = distances_of(random_points(30, 3, 3, 34), 3);
   const auto rows = all_rows(30);
