@@ -141,7 +141,12 @@ void ProblemBatch::serve_rows(Index begin, Index end) {
       const Item item = items_[i];
       const std::int32_t* list = rows_.data() + item.problem * max_items_;
       float* to = triangles_.data() + offset_[item.problem] + LowerTriangle::row_offset(item.position);
-      for (std::uint32_t j = 0; j < item.position; ++j) to[j] = from[list[j]];
+      std::uint32_t j = 0;
+      for (; j + 4 <= item.position; j += 4) {
+        const float a = from[list[j]], b = from[list[j + 1]], c = from[list[j + 2]], d = from[list[j + 3]];
+        to[j] = a, to[j + 1] = b, to[j + 2] = c, to[j + 3] = d;
+      }
+      for (; j < item.position; ++j) to[j] = from[list[j]];
     }
   }
 }
