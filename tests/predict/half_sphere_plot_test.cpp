@@ -34,7 +34,7 @@ TEST_CASE("poses are where they are seen from above, coloured by their score, th
   CHECK(pixel(image, 2, 2) == kWhite);
 }
 
-TEST_CASE("of dots on the same place the best lies on top; equal scores are all the highest") {
+TEST_CASE("of dots on the same place the best lies on top, equal scores are all the highest") {
   const std::vector<Pose> poses{{0, 90}, {90, 90}, {180, 90}};
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.1f, 0.9f, 0.5f}), 256, 256) == kHighest);
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.5f, 0.5f, 0.5f}), 256, 256) == kHighest);
