@@ -94,12 +94,15 @@ HWY_INLINE void start(const AgglomerationState& s) {
         hn::Gt(hn::Iota(di, static_cast<std::int32_t>(i)), hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
     hn::Store(hn::IfThenElseZero(hn::RebindMask(d, outside), hn::Set(d, kInfinity)), d, s.gone + i);
   }
+  const float* next = s.triangle;
   for (Index j = 0; j < s.n; ++j) {
     s.merged_into[j] = static_cast<std::int32_t>(j);
     float* row = s.dissimilarity + j * s.stride;
+    const float* from = s.triangle == nullptr ? row : next;
+    next += s.triangle == nullptr ? 0 : (j + 15) / 16 * 16;
     const auto later = hn::Set(di, static_cast<std::int32_t>(j));
     for (Index i = 0; i < j; i += lanes) {
-      auto value = hn::Load(d, row + i);
+      auto value = hn::Load(d, from + i);
       const auto inside = hn::RebindMask(d, hn::Lt(hn::Iota(di, static_cast<std::int32_t>(i)), later));
       value = hn::IfThenElseZero(inside, value);
       if (linkage == Linkage::average) value = hn::Sqrt(value);

@@ -6,7 +6,8 @@ namespace svnet {
 /// What merging works in. Arrays have at least `stride` entries and start on 64-byte borders.
 struct AgglomerationState {
   Index n, stride;        ///< points; floats of a row, whole lines
-  float* dissimilarity;   ///< (n, stride) below the diagonal on entry
+  const float* triangle;  ///< the distances on entry, as LowerTriangle; or null: below the diagonal of dissimilarity
+  float* dissimilarity;   ///< (n, stride)
   float* size;            ///< of the cluster in each slot
   float* gone;            ///< 0, or infinity for slots that were merged away
   float* nearest_value;   ///< to the nearest later slot: a lower bound; infinity where there is none

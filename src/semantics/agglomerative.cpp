@@ -40,13 +40,13 @@ void Agglomerative::cluster(const DistanceMatrix& distances, std::span<const std
                             std::span<std::int32_t> labels) {
   check_sizes(static_cast<Index>(rows.size()), k, labels.size());
   dissimilarity_.gather(distances, rows);
-  merge_to(k, labels);
+  merge_to(k, nullptr, labels);
 }
 
 void Agglomerative::cluster(const LowerTriangle& distances, Index k, std::span<std::int32_t> labels) {
   check_sizes(distances.points, k, labels.size());
-  dissimilarity_.copy(distances);
-  merge_to(k, labels);
+  dissimilarity_.resize(distances.points);
+  merge_to(k, distances.values, labels);
 }
 
 void Agglomerative::check_sizes(Index points, Index k, std::size_t labels) const {
@@ -57,11 +57,11 @@ void Agglomerative::check_sizes(Index points, Index k, std::size_t labels) const
   check(static_cast<Index>(labels) == points, "[agglomerative] ", labels, " labels for ", points, " points");
 }
 
-void Agglomerative::merge_to(Index k, std::span<std::int32_t> labels) {
+void Agglomerative::merge_to(Index k, const float* triangle, std::span<std::int32_t> labels) {
   const auto n = static_cast<Index>(labels.size());
   agglomerate(linkage_, k,
-              {n, dissimilarity_.stride(), dissimilarity_.row(0), size_.data(), gone_.data(), nearest_value_.data(),
-               nearest_.data(), merged_into_.data()});
+              {n, dissimilarity_.stride(), triangle, dissimilarity_.row(0), size_.data(), gone_.data(),
+               nearest_value_.data(), nearest_.data(), merged_into_.data()});
   std::int32_t next = 0;
   for (Index i = 0; i < n; ++i) {
     const std::int32_t into = merged_into_[i];

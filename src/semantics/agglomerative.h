@@ -33,7 +33,7 @@ class Agglomerative {
 
  private:
   void check_sizes(Index points, Index k, std::size_t labels) const;
-  void merge_to(Index k, std::span<std::int32_t> labels);
+  void merge_to(Index k, const float* triangle, std::span<std::int32_t> labels);
 
   Linkage linkage_;
   // A cluster lives in the slot of its first point.

@@ -20,10 +20,13 @@ class ProblemDistances {
   float* row(Index i) { return values_.data() + i * stride_; }
   const float* row(Index i) const { return values_.data() + i * stride_; }
 
+  /// To at most max_points points; the distances are undefined.
+  void resize(Index points) { stride_ = stride_for(points); }
+
   /// At most max_points rows. Below the last row there is memory for three more.
   void gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows) {
     const auto n = static_cast<Index>(rows.size());
-    stride_ = stride_for(n);
+    resize(n);
     for (Index i = 1; i < n; ++i) {
       const float* from = distances.row(rows[i]);
       float* to = row(i);
@@ -33,7 +36,7 @@ class ProblemDistances {
 
   /// At most max_points points.
   void copy(const LowerTriangle& triangle) {
-    stride_ = stride_for(triangle.points);
+    resize(triangle.points);
     const float* from = triangle.values;
     for (Index i = 1; i < triangle.points; ++i) {
       float* to = row(i);
