@@ -27,6 +27,11 @@ using IntVector = hn::Vec<Ints>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+/// first, first + 1, … Not Iota(first), which the compiler builds in memory number by number.
+HWY_INLINE IntVector positions_from(Index first) {
+  return hn::Add(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(first)));
+}
+
 /// The smallest value of lanes and positions seen so far; of equal ones the first.
 struct Minimum {
   FloatVector value;
@@ -90,8 +95,7 @@ HWY_INLINE void start(const AgglomerationState& s) {
     hn::Store(hn::Set(d, 1.0f), d, s.size + i);
     hn::Store(hn::Set(d, kInfinity), d, s.nearest_value + i);
     hn::Store(hn::Set(di, -1), di, s.nearest + i);
-    const auto outside =
-        hn::Gt(hn::Iota(di, static_cast<std::int32_t>(i)), hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
+    const auto outside = hn::Gt(positions_from(i), hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
     hn::Store(hn::IfThenElseZero(hn::RebindMask(d, outside), hn::Set(d, kInfinity)), d, s.gone + i);
   }
   const float* next = s.triangle;
@@ -103,7 +107,7 @@ HWY_INLINE void start(const AgglomerationState& s) {
     const auto later = hn::Set(di, static_cast<std::int32_t>(j));
     for (Index i = 0; i < j; i += lanes) {
       auto value = hn::Load(d, from + i);
-      const auto inside = hn::RebindMask(d, hn::Lt(hn::Iota(di, static_cast<std::int32_t>(i)), later));
+      const auto inside = hn::RebindMask(d, hn::Lt(positions_from(i), later));
       value = hn::IfThenElseZero(inside, value);
       if (linkage == Linkage::average) value = hn::Sqrt(value);
       hn::Store(value, d, row + i);
@@ -138,7 +142,7 @@ HWY_INLINE void find_nearest(const AgglomerationState& s, Index a) {
   const float* row = s.dissimilarity + a * s.stride;
   const auto slot = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
   const Index first = a & -lanes;
-  auto position = hn::Iota(di, static_cast<std::int32_t>(first));
+  auto position = positions_from(first);
   Minimum nearest;
   nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot)),
                              hn::Add(hn::Load(d, row + first), hn::Load(d, s.gone + first)), hn::Set(d, kInfinity)),
