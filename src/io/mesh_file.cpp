@@ -69,7 +69,7 @@ Mesh read_mesh(const fs::path& path, double metres_per_unit) {
     mesh.materials.push_back(material_of(*scene, *scene->mMaterials[i], path, mesh));
   for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
     const aiMesh& part = *scene->mMeshes[m];
-    if (part.mPrimitiveTypes != aiPrimitiveType_TRIANGLE) continue;
+    if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
     const auto base = static_cast<std::uint32_t>(mesh.points.size());
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D& p = part.mVertices[v];

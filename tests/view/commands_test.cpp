@@ -1,0 +1,142 @@
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include <sys/wait.h>
+
+#include "io/image_file.h"
+#include "io/view_dataset.h"
+#include "temporary_folder.h"
+
+using namespace svnet;
+
+namespace {
+
+struct Ran {
+  int status;
+  std::string out, err;
+};
+
+Ran run(const TemporaryFolder& folder, const std::string& command) {
+  const TemporaryFolder output;
+  const std::string out = output.path() / "out", err = output.path() / "err";
+  const int status =
+      std::system(("cd " + folder.path().string() + " && " + command + " >" + out + " 2>" + err).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_contents(out), file_contents(err)};
+}
+
+std::map<std::string, std::string> contents(const std::filesystem::path& root) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root))
+    if (entry.is_regular_file()) files[entry.path().lexically_relative(root)] = file_contents(entry.path());
+  return files;
+}
+
+constexpr const char* kRender = SVNET_RENDER " --quiet --categories mug,key --objects 1 --poses 2 --size 32 ";
+
+}  // namespace
+
+TEST_CASE("svnet-render writes a data set, the same for any number of threads") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder, std::string(kRender) + "--threads 1 --output one").status == 0);
+  REQUIRE(run(folder, std::string(kRender) + "--threads 3 --output three/").status == 0);
+  REQUIRE(run(folder, std::string(kRender) + "--seed 2 --output other").status == 0);
+  const auto files = contents(folder.path() / "one");
+  CHECK(contents(folder.path() / "three") == files);
+  CHECK(contents(folder.path() / "other") != files);
+
+  const ViewDataset dataset = read_view_dataset(folder.path() / "one");
+  CHECK(dataset.categories == std::vector<std::string>{"key", "mug"});
+  REQUIRE(dataset.poses.size() == 4);
+  for (const auto& pose : dataset.poses) {
+    CHECK(pose.view_count >= 17);
+    CHECK(pose.view_count <= 22);
+  }
+  const auto manifest = nlohmann::json::parse(files.at("manifest.json"));
+  CHECK(manifest.at("poses").at("mug").at("1").at("2").at("views").size() ==
+        static_cast<std::size_t>(dataset.poses[3].view_count));
+  for (const char* name :
+       {"_extra/mug/1/1/overview.png", "_extra/mug/1/1/overview_depth.png", "_extra/mug/1/1/90_90_mask.png",
+        "_extra/mug/1/1/90_90_depth.png", "_extra/overview_camera.json", "_extra/view_camera.json"})
+    CHECK(files.count(name) == 1);
+  CHECK(read_image(folder.path() / "one/mug/1/1/90_90.png").width == 32);
+
+  const Ran again = run(folder, std::string(kRender) + "--output one");
+  CHECK(again.status == 1);
+  CHECK(again.err == "svnet-render: one: exists already, remove it or choose another folder\n");
+  CHECK(run(folder, SVNET_RENDER " --output x --categories mugg").err ==
+        "svnet-render: there is no category 'mugg', did you mean 'mug'?\n");
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "x"));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "x.partial"));
+}
+
+TEST_CASE("svnet-render takes meshes of one's own") {
+  const TemporaryFolder folder;
+  std::string cube = "# 80 x 60 x 50 mm\n";
+  for (int i = 0; i < 8; ++i)
+    cube += "v " + std::to_string(80 * (i & 1)) + " " + std::to_string(60 * (i >> 1 & 1)) + " " +
+            std::to_string(50 * (i >> 2)) + "\n";
+  cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+  folder.write("meshes/box/brick.obj", cube);
+  REQUIRE(run(folder, SVNET_RENDER " --quiet --output d --meshes meshes --unit 0.001 --poses 1 --size 32").status == 0);
+  const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
+  const auto& pose = manifest.at("poses").at("box").at("brick").at("1");
+  CHECK(pose.at("length_m") == Approx(0.08).margin(0.005));
+  CHECK(pose.at("width_m") == Approx(0.06).margin(0.005));
+  CHECK(pose.at("height_m") == Approx(0.05).margin(0.005));
+
+  folder.write("bad/box/brick.obj", "v 0 0 0\n");
+  const Ran bad = run(folder, SVNET_RENDER " --quiet --output e --meshes bad");
+  CHECK(bad.status == 1);
+  CHECK_THAT(bad.err, Catch::StartsWith("svnet-render: bad/box/brick.obj: "));
+  CHECK(std::count(bad.err.begin(), bad.err.end(), '\n') == 1);
+  CHECK_THAT(run(folder, SVNET_RENDER " --quiet --output e --meshes none").err, Catch::Contains("none: "));
+}
+
+TEST_CASE("svnet-views localises an object and says where to see it from") {
+  const TemporaryFolder folder;
+  REQUIRE(run(folder, std::string(kRender) + "--output d").status == 0);
+  const std::string extra = "d/_extra/mug/1/1/";
+  const std::string pictures = " d/_extra/overview_camera.json --background " + extra + "overview_background.png " +
+                               extra + "overview_background_depth.png --current " + extra + "overview.png " + extra +
+                               "overview_depth.png ";
+  REQUIRE(run(folder, SVNET_VIEWS + pictures + "--json v.json --csv v.csv --plot v.png --steps steps").status == 0);
+  const auto json = nlohmann::json::parse(file_contents(folder.path() / "v.json"));
+  const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
+  CHECK(json.at("object").at("length_m") == manifest.at("poses").at("mug").at("1").at("1").at("length_m"));
+  CHECK(json.at("views").size() == 22);
+  CHECK(read_image(folder.path() / "v.png").width == 512);
+  for (const char* step : {"difference", "foreground", "contour", "height"})
+    CHECK(read_image(folder.path() / "steps" / (std::string(step) + ".png")).width == 640);
+  std::istringstream csv(file_contents(folder.path() / "v.csv"));
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line == "theta,phi,theta_rad,phi_rad,x_m,y_m,z_m,qx,qy,qz,qw");
+  std::getline(csv, line);
+  CHECK(line.substr(0, 5) == "0,45,");
+
+  folder.write("camera.json", R"({"width": 100, "height": 100, "fx": 140, "fy": 140, "cx": 50, "cy": 50})");
+  folder.write("reach.csv", "theta,phi\n0,45\n90,90\n");
+  const Ran ran = run(folder, SVNET_VIEWS " camera.json --centre 1 2 3 --diagonal 0.5 --reachable reach.csv");
+  CHECK(ran.status == 0);
+  CHECK_THAT(ran.out, Catch::Contains("\n90,90,"));
+  CHECK(std::count(ran.out.begin(), ran.out.end(), '\n') == 3);
+  const auto top = ran.out.substr(ran.out.find("\n90,90,"));
+  CHECK_THAT(top, Catch::Contains(",2,4,"));  // 1 m above the centre
+}
+
+TEST_CASE("svnet-views says what is wrong") {
+  const TemporaryFolder folder;
+  folder.write("camera.json", R"({"width": 100, "height": 100, "fx": 140, "fy": 140, "cx": 50, "cy": 50})");
+  folder.write("reach.csv", "theta,phi\n270,10\n");
+  CHECK(run(folder, SVNET_VIEWS " camera.json").status == 2);
+  CHECK(run(folder, SVNET_VIEWS " camera.json --centre 1 2 3").status == 2);
+  CHECK(run(folder, SVNET_VIEWS " camera.json --centre 1 2 3 --diagonal 0.5 --reachable reach.csv").err ==
+        "svnet-views: reach.csv: none of the 22 poses is reachable\n");
+  CHECK_THAT(run(folder, SVNET_VIEWS " none.json --centre 1 2 3 --diagonal 0.5").err,
+             Catch::Contains("none.json: cannot be read"));
+  CHECK(run(folder, SVNET_VIEWS " camera.json --background a b --current c d").err ==
+        "svnet-views: camera.json: the key 'pose' is missing, where the camera was for the pictures\n");
+}
