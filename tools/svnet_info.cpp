@@ -1,4 +1,4 @@
-// svnet-info: what a file of svnet's contains, or what svnet runs on.
+// svnet-info: what a file of svnet's contains, what svnet runs on, or how it runs a network.
 #include <cblas.h>
 
 #include "base/cpu.h"
@@ -7,21 +7,51 @@
 #include "base/version.h"
 #include "command/command.h"
 #include "train/describe.h"
+#include "train/plan_text.h"
+
+namespace svnet {
+namespace {
+
+std::string machine_text() {
+  const std::vector<std::string> sets = instruction_sets();
+  return joined("svnet ", kVersion, "\ncpu: ", cpu_name(), "\ninstruction sets, best first: ", joined_with(", ", sets),
+                "\nkernels: ", sets.front(), " (SVNET_MAX_ISA forces a lower one)",
+                "\nmatrix products of OpenBLAS: ", openblas_get_corename(),
+                "\nthreads: ", Parallel::shared().threads());
+}
+
+}  // namespace
+}  // namespace svnet
 
 int main(int argc, char** argv) {
   using namespace svnet;
   Command command("svnet-info",
                   "Says what a weights, features, scores, checkpoint or model file contains; without a file: version, "
-                  "CPU, instruction sets, the kernels chosen, threads.",
-                  "svnet-info runs/eth80/scores.h5");
-  std::filesystem::path file;
-  command.app().add_option("FILE", file, "A file (.h5, .safetensors)");
+                  "CPU, instruction sets, the kernels chosen, threads. With --plan: how a backbone, or the networks of "
+                  "a model file, run here, step by step.",
+                  "svnet-info runs/eth80/scores.h5\nsvnet-info --plan vgg19 --batch 8\n"
+                  "svnet-info runs/eth80/model.safetensors --plan");
+  std::string what, layer;
+  bool plan = false;
+  Index batch = 1;
+  command.app().add_option("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
+  auto* asked = command.app().add_flag("--plan", plan, "Print the steps of the compiled network, timed");
+  command.app()
+      .add_option("--batch", batch, "Pictures that run together (default 1)")
+      ->needs(asked)
+      ->check(CLI::Range(1, 1024));
+  command.app().add_option("--layer", layer, "The backbone's layer to stop at (default: the pooled one)")->needs(asked);
   return command.run(argc, argv, [&](Console& console) {
-    if (!file.empty()) return console.result(description_of(file));
-    const std::vector<std::string> sets = instruction_sets();
-    console.result(joined(
-        "svnet ", kVersion, "\ncpu: ", cpu_name(), "\ninstruction sets, best first: ", joined_with(", ", sets),
-        "\nkernels: ", sets.front(), " (SVNET_MAX_ISA forces a lower one)",
-        "\nmatrix products of OpenBLAS: ", openblas_get_corename(), "\nthreads: ", Parallel::shared().threads()));
+    if (what.empty()) {
+      if (plan) wrong_usage("--plan takes a model file or the name of a backbone");
+      return console.result(machine_text());
+    }
+    if (!plan) return console.result(description_of(what));
+    const std::filesystem::path file = what;
+    if (std::filesystem::exists(file) || file.has_extension() || file.has_parent_path()) {
+      if (!layer.empty()) wrong_usage("--layer is for backbones, a model file has its own");
+      return console.result(model_plan(file, batch));
+    }
+    console.result(backbone_plan(what, layer, batch));
   });
 }

@@ -29,20 +29,6 @@ Preprocessing preprocessing_from_json(const json& from) {
   return p;
 }
 
-/// The layers that the output needs, and their parameters.
-Graph cut_at(const Graph& graph, const std::string& output) {
-  const auto needed = graph.ancestors({graph.find(output)});
-  Graph part;
-  for (std::size_t i = 0; i < needed.size(); ++i) {
-    if (!needed[i]) continue;
-    const GraphNode& node = graph.nodes()[i];
-    std::vector<NodeId> inputs;
-    for (NodeId id : node.inputs) inputs.push_back(part.find(graph.node(id).name));
-    part.add(node.name, node.layer, inputs);
-  }
-  return part;
-}
-
 void add_parameters(TensorFile& file, const std::string& prefix, const Graph& graph, const Parameters& parameters) {
   for (const auto& node : graph.nodes())
     for (const auto& spec : node.parameters)
@@ -52,7 +38,7 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
 }  // namespace
 
 void write_model(const std::filesystem::path& path, const Model& model) {
-  const Graph backbone = cut_at(model.backbone_graph, model.backbone_output);
+  const Graph backbone = model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output));
   TensorFile file;
   file.description() = {
       {"kind", "model"},

@@ -4,12 +4,13 @@
 
 namespace svnet {
 
-Backbone::Backbone(const BackboneKind& kind, Graph graph, Parameters parameters, const std::string& layer)
-    : kind_(&kind),
-      graph_(std::move(graph)),
-      parameters_(std::move(parameters)),
-      output_(output_layer(kind, graph_, layer)),
-      inference_(std::make_shared<Inference>(graph_, parameters_, output_)) {}
+Backbone::Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer)
+    : kind_(&kind), graph_(graph.up_to(output_layer(kind, graph, layer))) {
+  for (const GraphNode& node : graph_.nodes())
+    for (const ParameterSpec& spec : node.parameters)
+      parameters_.set(node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
+  inference_ = std::make_shared<Inference>(graph_, parameters_, graph_.output());
+}
 
 Tensor Backbone::features(const Tensor& batch) const {
   return inference_->run({batch}).reshaped({batch.dim(0), dimension()});
@@ -26,9 +27,9 @@ Tensor Backbone::batch(std::span<const Image> images) const {
 
 Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed) {
   const BackboneKind& kind = backbone_kind(name);
-  Graph graph = kind.graph(kind.preprocessing.height, false);
-  Parameters parameters = initial_parameters(graph, seed);
-  return {kind, std::move(graph), std::move(parameters), layer};
+  const Graph whole = kind.graph(kind.preprocessing.height, true);
+  const Graph graph = whole.up_to(output_layer(kind, whole, layer));
+  return {kind, graph, initial_parameters(graph, seed), layer};
 }
 
 }  // namespace svnet

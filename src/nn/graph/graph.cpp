@@ -55,6 +55,19 @@ std::vector<bool> Graph::ancestors(const std::vector<NodeId>& outputs) const {
   return needed;
 }
 
+Graph Graph::up_to(NodeId output) const {
+  const std::vector<bool> needed = ancestors({output});
+  std::vector<NodeId> place(nodes_.size(), -1);
+  Graph part;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    if (!needed[i]) continue;
+    std::vector<NodeId> inputs;
+    for (NodeId id : nodes_[i].inputs) inputs.push_back(place[static_cast<std::size_t>(id)]);
+    place[i] = part.add(nodes_[i].name, nodes_[i].layer, std::move(inputs));
+  }
+  return part;
+}
+
 Index Graph::parameter_count() const {
   Index count = 0;
   for (const auto& node : nodes_)

@@ -39,6 +39,8 @@ class Graph {
   NodeId output() const { return static_cast<NodeId>(nodes_.size()) - 1; }
   /// Which nodes `outputs` depend on, themselves included.
   std::vector<bool> ancestors(const std::vector<NodeId>& outputs) const;
+  /// The graph without the nodes that `output` does not need; the output is the last node.
+  Graph up_to(NodeId output) const;
   /// Number of parameters' elements.
   Index parameter_count() const;
 
