@@ -1,6 +1,7 @@
 #include "base/parallel.h"
 
 #include <atomic>
+#include <chrono>
 #include <condition_variable>
 #include <cstdlib>
 #include <exception>
@@ -53,6 +54,30 @@ int initial_threads() {
   return checked_threads(threads, "SVNET_THREADS");
 }
 
+/// Tells the processor that the thread is waiting.
+void relax_cpu() {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#elif defined(__aarch64__)
+  asm volatile("yield");
+#endif
+}
+
+/// Waits for a condition for about as long as it takes to put a thread to sleep and wake it again; whether it came. The
+/// layers of a small network follow one another faster than that.
+template <class Condition>
+bool spin_until(const Condition& condition) {
+  constexpr auto kLongest = std::chrono::microseconds(50);
+  const auto start = std::chrono::steady_clock::now();
+  do {
+    for (int i = 0; i < 32; ++i) {
+      if (condition()) return true;
+      relax_cpu();
+    }
+  } while (std::chrono::steady_clock::now() - start < kLongest);
+  return false;
+}
+
 /// One call of for_chunks, shared by the threads that work on it.
 struct Job {
   Index count, chunk, chunks;
@@ -86,11 +111,17 @@ struct Parallel::Pool {
   std::condition_variable wake, done;
   std::vector<std::thread> helpers;
   std::atomic<int> threads{1};
-  Job* job = nullptr;
-  std::uint64_t generation = 0;
-  int running = 0;
-  bool stop = false;
+  /// Which call it is, whether helpers may still join it, and how many are in it. A call closes once its caller finds
+  /// no chunk left, and ends when the last helper has left: nobody waits for a helper that never came.
+  std::atomic<std::uint64_t> state{0};
+  std::atomic<int> sleepers{0};            // helpers that must be woken
+  std::atomic<bool> caller_sleeps{false};  // the last helper to leave must wake the caller
+  std::atomic<bool> stop{false};
+  Job* job = nullptr;  // of the open call: written before it opens, read by helpers that are in it
+  bool may_spin = false;
   const pid_t process = getpid();
+
+  static constexpr std::uint64_t kInside = 0x7fffffff, kOpen = kInside + 1, kCall = kOpen << 1;
 
   /// A forked process has no helpers, only their handles: there is nobody to wake and nobody to join.
   bool forked() const { return getpid() != process; }
@@ -98,20 +129,52 @@ struct Parallel::Pool {
   void start(int count) {
     threads = count;
     stop = false;
-    for (int worker = 1; worker < count; ++worker)
-      helpers.emplace_back([this, worker, seen = generation]() mutable {
+    may_spin = count <= affinity_count();
+    for (int worker = 1; worker < count; ++worker) helpers.emplace_back([this, worker] { help(worker); });
+  }
+
+  /// A call is news to a helper that was not in it yet. `seen`: the last one it was in.
+  static bool is_news(std::uint64_t now, std::uint64_t seen) { return (now & kOpen) != 0 && now / kCall != seen; }
+
+  void help(int worker) {
+    for (std::uint64_t seen = 0;;) {
+      const auto news = [&] { return stop.load() || is_news(state.load(), seen); };
+      if (!(may_spin && spin_until(news))) {
         std::unique_lock lock(mutex);
-        for (;;) {
-          wake.wait(lock, [&] { return stop || generation != seen; });
-          if (stop) return;
-          seen = generation;
-          Job* mine = job;
-          lock.unlock();
-          mine->work(worker);
-          lock.lock();
-          if (--running == 0) done.notify_one();
-        }
-      });
+        ++sleepers;  // before the last look at the state: the caller opens a call first and then looks for sleepers
+        wake.wait(lock, news);
+        --sleepers;
+      }
+      if (stop) return;
+      std::uint64_t now = state.load();
+      while (is_news(now, seen) && !state.compare_exchange_weak(now, now + 1)) {
+      }
+      if (!is_news(now, seen)) continue;
+      seen = now / kCall;
+      job->work(worker);
+      const std::uint64_t left = --state;
+      if ((left & (kOpen | kInside)) == 0 && caller_sleeps) {
+        { std::lock_guard lock(mutex); }  // the caller waits by now, or has yet to look
+        done.notify_one();
+      }
+    }
+  }
+
+  void run(Job& whole) {
+    job = &whole;
+    state = (state.load() / kCall + 1) * kCall | kOpen;
+    if (sleepers > 0) {
+      { std::lock_guard lock(mutex); }
+      wake.notify_all();
+    }
+    whole.work(0);
+    state &= ~kOpen;
+    const auto empty = [&] { return (state.load() & kInside) == 0; };
+    if (empty() || (may_spin && spin_until(empty))) return;
+    std::unique_lock lock(mutex);
+    caller_sleeps = true;
+    done.wait(lock, empty);
+    caller_sleeps = false;
   }
 
   void join() {
@@ -155,16 +218,7 @@ void Parallel::for_chunks(Index count, Index chunk, Body body) {
   Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = body};
   std::unique_lock call(pool_->call, std::defer_lock);
   if (chunks > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
-    {
-      std::lock_guard lock(pool_->mutex);
-      pool_->job = &job;
-      pool_->running = static_cast<int>(pool_->helpers.size());
-      ++pool_->generation;
-    }
-    pool_->wake.notify_all();
-    job.work(0);
-    std::unique_lock lock(pool_->mutex);
-    pool_->done.wait(lock, [&] { return pool_->running == 0; });
+    pool_->run(job);
   } else {
     job.work(0);
   }
