@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <future>
 
 #include "base/parallel.h"
 #include "base/sha256.h"
@@ -13,6 +14,17 @@ namespace svnet {
 namespace {
 
 constexpr Index kBatch = 16;
+
+/// The views [begin, end) as a batch (N, H, W, 3).
+Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
+                      Parallel& parallel) {
+  Tensor batch = Tensor::empty({end - begin, how.height, how.width, 3});
+  parallel.for_chunks(end - begin, 1, [&](Index i, Index, int) {
+    const View& view = dataset.views[static_cast<std::size_t>(begin + i)];
+    prepare(how, read_image(dataset.root / view.path), batch.data<float>() + i * how.size());
+  });
+  return batch;
+}
 
 }  // namespace
 
@@ -45,25 +57,32 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Team& team) {
   const auto count = static_cast<Index>(dataset.views.size());
-  const Index dimension = backbone.dimension(), pixels = backbone.preprocessing().size();
+  const Index dimension = backbone.dimension();
   Features features{origin, count, dimension, {}, {}, {}};
   features.values.resize(static_cast<std::size_t>(count * dimension));
   for (const View& view : dataset.views) {
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
-  // Shares are whole batches, so that the batches are the same for any number of processes.
+  // Shares are whole batches, as they would be without a team.
   const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
   const Index first = static_cast<Index>(share.first) * kBatch;
   const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
   Progress progress(messages, "features of " + backbone.kind().name, std::max<Index>(last - first, 0));
-  for (Index begin = first; begin < last; begin += kBatch) {
-    const Index size = std::min(kBatch, count - begin);
-    Tensor batch = Tensor::empty({size, backbone.preprocessing().height, backbone.preprocessing().width, 3});
-    Parallel::shared().for_chunks(size, 1, [&](Index i, Index, int) {
-      const View& view = dataset.views[static_cast<std::size_t>(begin + i)];
-      prepare(backbone.preprocessing(), read_image(dataset.root / view.path), batch.data<float>() + i * pixels);
+  // The network has the shared pool. The future comes last: it waits for what the readers still do.
+  Parallel readers(Parallel::shared().threads());
+  const auto launch = readers.threads() > 1 ? std::launch::async : std::launch::deferred;
+  std::future<Tensor> next;
+  const auto prepare_from = [&](Index begin) {
+    next = std::async(launch, [&, begin] {
+      return prepared_batch(backbone.preprocessing(), dataset, begin, std::min(begin + kBatch, last), readers);
     });
+  };
+  if (first < last) prepare_from(first);
+  for (Index begin = first; begin < last; begin += kBatch) {
+    const Index size = std::min(kBatch, last - begin);
+    const Tensor batch = next.get();
+    if (begin + kBatch < last) prepare_from(begin + kBatch);
     const Tensor values = backbone.features(batch);
     for (Index i = 0; i < values.size(); ++i)
       check(std::isfinite(values.data<float>()[i]), "[", backbone.kind().name, "] a feature of ",

@@ -7,10 +7,10 @@
 
 namespace svnet {
 
-/// Features of every view of the dataset, in its order. Pictures are read and prepared in parallel, then a batch runs
-/// through the backbone; batches have a fixed size, so the result is the same for any number of threads. A picture's
-/// neighbours in its batch may change its features' last bits. `origin` is copied into the result. A team shares the
-/// batches; each of its processes gets all features, with the same bits as one process alone.
+/// Features of every view of the dataset, in its order. While a batch runs through the backbone, the pictures of the
+/// next one are read and prepared by threads of their own (with one thread in all: one after the other). The same bits
+/// for any number of threads, and whatever pictures share a batch. `origin` is copied into the result. A team shares
+/// the batches; each of its processes gets all features.
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Team& team);
 
