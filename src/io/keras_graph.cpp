@@ -10,12 +10,6 @@
 namespace svnet {
 namespace {
 
-/// A layer of the file that has weights, whatever the layout.
-struct FileLayer {
-  std::string name;
-  std::vector<KerasArray> arrays;
-};
-
 /// The nodes with parameters that `output` needs, in Keras' order.
 std::vector<NodeId> weighted_layers(const Graph& graph, NodeId output) {
   std::vector<NodeId> layers = keras_order(graph, output);
@@ -45,29 +39,27 @@ bool is_automatic_name(const std::string& name, const Layer& layer) {
   return rest.empty() || (rest.size() > 1 && rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == rest.npos);
 }
 
-std::vector<FileLayer> legacy_layers(const std::filesystem::path& path) {
-  std::vector<FileLayer> layers;
-  for (auto& layer : read_keras_weights(path))
-    if (!layer.arrays.empty()) layers.push_back({layer.name, std::move(layer.arrays)});
+/// The layers of the file that have weights.
+std::vector<KerasLayer> weighted_layers(const KerasWeightsFile& file) {
+  std::vector<KerasLayer> layers = file.layers();
+  std::erase_if(layers, [](const KerasLayer& layer) { return layer.arrays.empty(); });
   return layers;
 }
 
 /// The layers of a Keras 3 file in the order of the graph's: the k-th of a class in the file is the k-th of that class
 /// in Keras' order. What the graph has no place for comes last.
-std::vector<FileLayer> keras3_layers(const std::filesystem::path& path, const Graph& graph,
-                                     const std::vector<NodeId>& order) {
-  std::map<std::string, std::vector<FileLayer>> by_class;
-  auto read = read_keras3_weights(path);
+std::vector<KerasLayer> in_order_of(const Graph& graph, const std::vector<NodeId>& order, const std::string& file,
+                                    std::vector<KerasLayer> read) {
+  std::map<std::string, std::vector<KerasLayer>> by_class;
   std::stable_sort(read.begin(), read.end(), [](const auto& a, const auto& b) { return a.counter < b.counter; });
-  for (auto& layer : read)
-    if (!layer.arrays.empty()) by_class[layer.class_name].push_back({layer.path, std::move(layer.arrays)});
+  for (auto& layer : read) by_class[layer.class_name].push_back(std::move(layer));
   std::map<std::string, std::size_t> used;
-  std::vector<FileLayer> layers;
+  std::vector<KerasLayer> layers;
   for (NodeId id : order) {
     const std::string class_name = snake_case(kind(graph.node(id).layer));
     auto& candidates = by_class[class_name];
     std::size_t& next = used[class_name];
-    check(next < candidates.size(), path.string(), ": there are ", candidates.size(), " layers of class '", class_name,
+    check(next < candidates.size(), file, ": there are ", candidates.size(), " layers of class '", class_name,
           "', and layer '", graph.node(id).name, "' of the model needs one more");
     layers.push_back(std::move(candidates[next++]));
   }
@@ -94,50 +86,59 @@ std::string shapes_of(const std::vector<ParameterSpec>& specs) {
   return joined_with(", ", texts);
 }
 
-void fill(const std::filesystem::path& path, std::size_t position, const GraphNode& node, FileLayer& layer,
-          Parameters& parameters) {
+void check_fits(const std::string& file, std::size_t position, const GraphNode& node, const KerasLayer& layer) {
   for (std::size_t i = 0; i < std::min(layer.arrays.size(), node.parameters.size()); ++i) {
     const std::string own = own_name(layer.arrays[i].name);
     for (const auto& other : node.parameters)
-      check(other.name != own || own == node.parameters[i].name, path.string(), ": layer '", layer.name, "' has its '",
-            own, "' where '", node.parameters[i].name, "' belongs; the weights of a layer must be in Keras' order");
+      check(other.name != own || own == node.parameters[i].name, file, ": layer '", layer.path, "' has its '", own,
+            "' where '", node.parameters[i].name, "' belongs; the weights of a layer must be in Keras' order");
   }
   bool fits = layer.arrays.size() == node.parameters.size();
   for (std::size_t i = 0; fits && i < layer.arrays.size(); ++i)
     fits = layer.arrays[i].shape == node.parameters[i].shape;
-  check(fits, path.string(), ": layer ", position + 1, " is '", layer.name, "' with ", shapes_of(layer.arrays),
+  check(fits, file, ": layer ", position + 1, " is '", layer.path, "' with ", shapes_of(layer.arrays),
         ", the model expects '", node.name, "' with ", shapes_of(node.parameters),
         "; these are weights of another model");
-  for (std::size_t i = 0; i < layer.arrays.size(); ++i) {
-    const ParameterSpec& spec = node.parameters[i];
-    Tensor value = Tensor::from(spec.shape, layer.arrays[i].values);
-    parameters.set(node.parameter_name(spec), spec.trainable ? value.as_parameter() : value);
-    layer.arrays[i].values = {};
-  }
 }
 
-Parameters filled(const std::filesystem::path& path, std::vector<FileLayer> layers, const Graph& graph,
-                  const std::vector<NodeId>& order, KerasLoadReport* report) {
-  Parameters parameters;
+/// Checks every layer of `order` against the file, and reads the numbers of those that `output` needs.
+Parameters matched(const KerasWeightsFile& file, const Graph& graph, const std::vector<NodeId>& order, NodeId output,
+                   KerasLoadReport* report) {
+  std::vector<KerasLayer> layers = weighted_layers(file);
+  if (file.layout() == KerasLayout::keras3) layers = in_order_of(graph, order, file.name(), std::move(layers));
+  const std::vector<bool> needed = graph.ancestors({output});
   KerasLoadReport made;
+  std::vector<std::pair<const GraphNode*, const KerasLayer*>> to_load;
   for (std::size_t i = 0; i < layers.size(); ++i) {
+    const std::string& name = layers[i].path;
     if (i >= order.size()) {
-      made.unused.push_back(layers[i].name);
+      made.unused.push_back(name);
       continue;
     }
     const GraphNode& node = graph.node(order[i]);
-    const std::string& name = layers[i].name;
-    check(name == node.name || is_automatic_name(name, node.layer) || !graph.contains(name), path.string(), ": layer ",
+    check(name == node.name || is_automatic_name(name, node.layer) || !graph.contains(name), file.name(), ": layer ",
           i + 1, " is '", name, "' where the model has '", node.name,
           "'; the layers of the file are not in the order of the model");
-    fill(path, i, node, layers[i], parameters);
-    made.loaded.push_back(node.name);
+    check_fits(file.name(), i, node, layers[i]);
+    if (needed[static_cast<std::size_t>(order[i])]) {
+      to_load.emplace_back(&node, &layers[i]);
+      made.loaded.push_back(node.name);
+    } else {
+      made.unused.push_back(name);
+    }
   }
   // Last, because weights of another model are better told by their first layer that does not fit.
   std::vector<std::string> missing;
   for (std::size_t i = layers.size(); i < order.size(); ++i) missing.push_back(graph.node(order[i]).name);
-  check(missing.empty(), path.string(), ": has ", layers.size(), " layers with weights, the model needs ", order.size(),
+  check(missing.empty(), file.name(), ": has ", layers.size(), " layers with weights, the model needs ", order.size(),
         "; missing: ", joined_with(", ", missing));
+  Parameters parameters;
+  for (const auto& [node, layer] : to_load)
+    for (std::size_t i = 0; i < layer->arrays.size(); ++i) {
+      const ParameterSpec& spec = node->parameters[i];
+      const Tensor value = Tensor::from(spec.shape, file.values(layer->arrays[i]));
+      parameters.set(node->parameter_name(spec), spec.trainable ? value.as_parameter() : value);
+    }
   if (report != nullptr) *report = std::move(made);
   return parameters;
 }
@@ -146,27 +147,22 @@ Parameters filled(const std::filesystem::path& path, std::vector<FileLayer> laye
 
 Parameters read_keras_parameters(const std::filesystem::path& path, const Graph& graph, NodeId output,
                                  KerasLoadReport* report) {
-  const auto order = weighted_layers(graph, output);
-  auto layers = keras_layout(path) == KerasLayout::legacy ? legacy_layers(path) : keras3_layers(path, graph, order);
-  return filled(path, std::move(layers), graph, order, report);
+  return matched(KerasWeightsFile(path), graph, weighted_layers(graph, output), output, report);
 }
 
 Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
                        KerasLoadReport* report) {
   const BackboneKind& kind = backbone_kind(name);
-  Graph with_top = kind.graph(kind.preprocessing.height, true);
-  const auto whole = weighted_layers(with_top, with_top.output());
-  const bool legacy = keras_layout(weights) == KerasLayout::legacy;
+  const KerasWeightsFile file(weights);
+  Graph graph = kind.graph(kind.preprocessing.height, true);
+  auto order = weighted_layers(graph, graph.output());
   // A file has a top if it has as many layers with weights as the network with its top.
-  auto layers = legacy ? legacy_layers(weights) : std::vector<FileLayer>{};
-  std::size_t count = layers.size();
-  if (!legacy)
-    for (const auto& l : read_keras3_weights(weights)) count += l.arrays.empty() ? 0 : 1;
-  Graph graph = count >= whole.size() ? std::move(with_top) : kind.graph(kind.preprocessing.height, false);
-  const auto order = weighted_layers(graph, graph.output());
-  if (!legacy) layers = keras3_layers(weights, graph, order);
-  Parameters parameters = filled(weights, std::move(layers), graph, order, report);
-  return {kind, std::move(graph), std::move(parameters), layer};
+  if (weighted_layers(file).size() < order.size()) {
+    graph = kind.graph(kind.preprocessing.height, false);
+    order = weighted_layers(graph, graph.output());
+  }
+  const NodeId output = output_layer(kind, graph, layer);
+  return {kind, graph, matched(file, graph, order, output, report), layer};
 }
 
 std::filesystem::path find_weights(const BackboneKind& kind, const std::filesystem::path& folder) {

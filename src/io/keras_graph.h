@@ -10,8 +10,7 @@ namespace svnet {
 /// What became of every layer with weights, in a weights file and in the graph.
 struct KerasLoadReport {
   std::vector<std::string> loaded;  // graph layers that were filled, "block_1_expand"
-  std::vector<std::string>
-      unused;  // layers of the file above the last one that the graph has: a top that was not asked for
+  std::vector<std::string> unused;  // layers of the file that the output does not need: a top that was not asked for
 };
 
 /// The parameters of `graph` up to `output` from a Keras file, legacy layout or Keras 3. Layers are matched by position
@@ -21,7 +20,8 @@ struct KerasLoadReport {
 Parameters read_keras_parameters(const std::filesystem::path& path, const Graph& graph, NodeId output,
                                  KerasLoadReport* report = nullptr);
 
-/// The backbone with the weights of the file, and with its top where the file has one.
+/// The backbone with the weights of the file. All its layers are checked, also those of the top where the file has one;
+/// only the numbers that the output needs are read.
 Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer = "",
                        KerasLoadReport* report = nullptr);
 

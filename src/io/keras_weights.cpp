@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "io/hdf5/hdf5_file.h"
 #include "printable.h"
 
 namespace svnet {
@@ -20,14 +19,6 @@ constexpr const char* kLayerGroups[] = {"layers", "_layer_checkpoint_dependencie
 
 std::string path_to(const std::string& group, const std::string& name) {
   return group.empty() ? name : group + "/" + name;
-}
-
-KerasArray read_array(const Hdf5File& file, const std::string& dataset, const std::string& name) {
-  Hdf5Array<float> array = file.read<float>(dataset);
-  const auto bad = std::find_if(array.values.begin(), array.values.end(), [](float x) { return !std::isfinite(x); });
-  check(bad == array.values.end(), file.name(), ": dataset '", printable(dataset), "': value ",
-        bad - array.values.begin(), " is not finite; the weights are damaged or were never trained");
-  return {name, std::move(array.shape), std::move(array.values)};
 }
 
 /// A list of strings that Keras may have split over NAME0, NAME1, … because attributes have a limited size.
@@ -50,15 +41,15 @@ std::string legacy_root(const Hdf5File& file) {
   return !has_list(file, "", "layer_names") && file.is_group(kModelGroup) ? kModelGroup : "";
 }
 
-KerasLayerWeights read_legacy_layer(const Hdf5File& file, const std::string& root, const std::string& layer) {
+KerasLayer legacy_layer(const Hdf5File& file, const std::string& root, const std::string& layer) {
   const std::string group = path_to(root, layer);
   check(file.is_group(group), file.name(), ": layer '", printable(layer),
         "' is named in layer_names but has no group '", printable(group), "'");
-  KerasLayerWeights weights{layer, {}};
+  KerasLayer weights{.path = layer, .class_name = {}, .layer_name = {}, .arrays = {}};
   for (const std::string& name : list(file, group, "weight_names")) {
     const std::string dataset = path_to(group, name);
     check(file.has(dataset), file.name(), ": dataset '", printable(dataset), "' is named in weight_names but missing");
-    weights.arrays.push_back(read_array(file, dataset, name));
+    weights.arrays.push_back({name, file.shape(dataset), dataset});
   }
   return weights;
 }
@@ -70,19 +61,19 @@ std::string keras3_root(const Hdf5File& file) {
   return {};
 }
 
-std::vector<KerasArray> read_vars(const Hdf5File& file, const std::string& vars) {
+std::vector<KerasArray> arrays_of(const Hdf5File& file, const std::string& vars) {
   std::vector<KerasArray> arrays;
   for (const std::string& name : file.members(vars)) {
     check(name == std::to_string(arrays.size()), file.name(), ": group '", printable(vars), "' holds '",
           printable(name), "' where '", arrays.size(), "' is expected");
-    arrays.push_back(read_array(file, path_to(vars, name), name));
+    arrays.push_back({name, file.shape(path_to(vars, name)), path_to(vars, name)});
   }
   return arrays;
 }
 
-Keras3LayerWeights read_keras3_layer(const Hdf5File& file, const std::string& group, const std::string& path) {
+KerasLayer keras3_layer(const Hdf5File& file, const std::string& group, const std::string& path) {
   const std::string vars = path_to(group, "vars");
-  Keras3LayerWeights layer;
+  KerasLayer layer;
   layer.path = path;
   layer.class_name = path.substr(path.rfind('/') + 1);
   const std::size_t end = layer.class_name.find_last_not_of("0123456789");
@@ -92,16 +83,16 @@ Keras3LayerWeights read_keras3_layer(const Hdf5File& file, const std::string& gr
     layer.class_name.resize(end);
   }
   if (file.has_attribute(vars, "name")) layer.layer_name = file.text_attribute(vars, "name");
-  layer.arrays = read_vars(file, vars);
+  layer.arrays = arrays_of(file, vars);
   return layer;
 }
 
 /// Everything below `group` that has `vars`, the group itself first. A damaged file may link groups in a circle.
 void collect_keras3(const Hdf5File& file, const std::string& group, const std::string& path, int depth,
-                    std::vector<Keras3LayerWeights>& layers) {
+                    std::vector<KerasLayer>& layers) {
   check(depth < 16 && layers.size() < 100'000, file.name(), ": group '", printable(group),
         "' is nested too deeply; the file is damaged");
-  if (!path.empty() && file.is_group(path_to(group, "vars"))) layers.push_back(read_keras3_layer(file, group, path));
+  if (!path.empty() && file.is_group(path_to(group, "vars"))) layers.push_back(keras3_layer(file, group, path));
   for (const std::string& name : file.members(group)) {
     if (name == "vars" || name == kSeedGenerator || !file.is_group(path_to(group, name))) continue;
     collect_keras3(file, path_to(group, name), path_to(path, name), depth + 1, layers);
@@ -115,41 +106,46 @@ KerasLayout layout_of(const Hdf5File& file) {
   return KerasLayout::keras3;
 }
 
-}  // namespace
-
-KerasLayout keras_layout(const std::filesystem::path& path) { return layout_of(Hdf5File::open(path)); }
-
-std::vector<KerasLayerWeights> read_keras_weights(const std::filesystem::path& path) {
-  const Hdf5File file = Hdf5File::open(path);
-  check(layout_of(file) == KerasLayout::legacy, file.name(),
-        ": has the layout of Keras 3 (.weights.h5), expected the legacy layout (.h5)");
+std::vector<KerasLayer> legacy_layers(const Hdf5File& file) {
   const std::string root = legacy_root(file);
-  std::vector<KerasLayerWeights> layers;
+  std::vector<KerasLayer> layers;
   std::set<std::string> seen;
   for (const std::string& layer : list(file, root, "layer_names")) {
     check(seen.insert(layer).second, file.name(), ": layer_names has '", printable(layer), "' twice");
-    layers.push_back(read_legacy_layer(file, root, layer));
+    layers.push_back(legacy_layer(file, root, layer));
   }
   if (seen.count(kOwnWeights) == 0 && file.is_group(path_to(root, kOwnWeights)) &&
       has_list(file, path_to(root, kOwnWeights), "weight_names")) {
-    KerasLayerWeights own = read_legacy_layer(file, root, kOwnWeights);
+    KerasLayer own = legacy_layer(file, root, kOwnWeights);
     if (!own.arrays.empty()) layers.push_back(std::move(own));
   }
   return layers;
 }
 
-std::vector<Keras3LayerWeights> read_keras3_weights(const std::filesystem::path& path) {
-  const Hdf5File file = Hdf5File::open(path);
-  check(layout_of(file) == KerasLayout::keras3, file.name(),
-        ": has Keras' legacy layout (.h5), expected that of Keras 3 (.weights.h5)");
-  std::vector<Keras3LayerWeights> layers;
+std::vector<KerasLayer> keras3_layers(const Hdf5File& file) {
+  std::vector<KerasLayer> layers;
   collect_keras3(file, keras3_root(file), "", 0, layers);
   if (file.is_group("vars")) {
-    Keras3LayerWeights own;
-    own.arrays = read_vars(file, "vars");
+    KerasLayer own;
+    own.arrays = arrays_of(file, "vars");
     if (!own.arrays.empty()) layers.push_back(std::move(own));
   }
   return layers;
+}
+
+}  // namespace
+
+KerasWeightsFile::KerasWeightsFile(const std::filesystem::path& path)
+    : file_(Hdf5File::open(path)),
+      layout_(layout_of(file_)),
+      layers_(layout_ == KerasLayout::legacy ? legacy_layers(file_) : keras3_layers(file_)) {}
+
+std::vector<float> KerasWeightsFile::values(const KerasArray& array) const {
+  std::vector<float> values = file_.read<float>(array.dataset).values;
+  const auto bad = std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
+  check(bad == values.end(), name(), ": dataset '", printable(array.dataset), "': value ", bad - values.begin(),
+        " is not finite; the weights are damaged or were never trained");
+  return values;
 }
 
 }  // namespace svnet

@@ -53,18 +53,16 @@ void add_layer(std::ostringstream& text, const std::string& name, const std::vec
   text << "\n  " << without_control_characters(name) << ":";
   for (const auto& array : arrays) {
     text << " " << to_string(array.shape);
-    count += static_cast<Index>(array.values.size());
+    count += element_count(array.shape);
   }
 }
 
 std::string describe_weights(const std::filesystem::path& file) {
+  const KerasWeightsFile weights(file);
   std::ostringstream layers;
   Index count = 0;
-  const bool legacy = keras_layout(file) == KerasLayout::legacy;
-  if (legacy)
-    for (const auto& layer : read_keras_weights(file)) add_layer(layers, layer.name, layer.arrays, count);
-  else
-    for (const auto& layer : read_keras3_weights(file)) add_layer(layers, layer.path, layer.arrays, count);
+  for (const auto& layer : weights.layers()) add_layer(layers, layer.path, layer.arrays, count);
+  const bool legacy = weights.layout() == KerasLayout::legacy;
   return joined(legacy ? "Keras weights" : "Keras 3 weights", ", ", count,
                 " numbers; layers and shapes in the order of the file:", layers.str());
 }
