@@ -14,7 +14,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
                         {"steps", checkpoint.steps},
                         {"best_loss", checkpoint.best_loss},
                         {"metrics", checkpoint.metrics}};
-  file.add("head", checkpoint.parameters);
+  file.add("", checkpoint.parameters);
   for (std::size_t i = 0; i < checkpoint.optimizer.size(); ++i)
     file.add("optimizer/" + std::to_string(i), checkpoint.optimizer[i]);
   file.write(path);
@@ -28,7 +28,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph
                         .steps = file.get<Index>("steps"),
                         .best_loss = file.get<double>("best_loss"),
                         .metrics = file.get<std::string>("metrics"),
-                        .parameters = file.parameters("head", graph),
+                        .parameters = file.parameters("", graph),
                         .optimizer = {}};
   for (std::size_t i = 0; i < optimizer.size(); ++i)
     checkpoint.optimizer.push_back(file.at("optimizer/" + std::to_string(i), optimizer[i].shape()));

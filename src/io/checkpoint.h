@@ -14,11 +14,11 @@ struct Checkpoint {
   Index steps = 0;                // optimizer steps done
   double best_loss = 0;           // of the best epoch so far
   std::string metrics;            // metrics.csv so far
-  Parameters parameters;
+  Parameters parameters;          // of the trained graph (models/trained_graph.h)
   std::vector<Tensor> optimizer;  // its state
 };
 
-// A TensorFile of kind "checkpoint": tensors "head/<layer>/<parameter>" and "optimizer/<number>"; the other members are
+// A TensorFile of kind "checkpoint": tensors "<layer>/<parameter>" and "optimizer/<number>"; the other members are
 // in the description.
 
 /// Replaces the file as a whole.

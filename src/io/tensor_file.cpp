@@ -11,6 +11,10 @@ namespace {
 
 constexpr int kFormat = 1;
 
+std::string path_of(const std::string& prefix, const std::string& name) {
+  return prefix.empty() ? name : prefix + "/" + name;
+}
+
 Tensor copied(const std::string& path, const SafetensorsTensor& from) {
   check(from.dtype == "F32", path, ": tensor '", from.name, "' is ", from.dtype, ", expected F32");
   Tensor tensor = Tensor::empty(from.shape);
@@ -66,7 +70,7 @@ template nlohmann::json TensorFile::get<nlohmann::json>(const std::string&) cons
 void TensorFile::add(const std::string& name, const Tensor& tensor) { tensors_.emplace_back(name, tensor); }
 
 void TensorFile::add(const std::string& prefix, const Parameters& parameters) {
-  for (const auto& [name, tensor] : parameters.items()) add(prefix + "/" + name, tensor);
+  for (const auto& [name, tensor] : parameters.items()) add(path_of(prefix, name), tensor);
 }
 
 const Tensor& TensorFile::at(const std::string& name, const Shape& shape) const {
@@ -84,7 +88,7 @@ Parameters TensorFile::parameters(const std::string& prefix, const Graph& graph)
   for (const auto& node : graph.nodes())
     for (const auto& spec : node.parameters) {
       const std::string name = node.parameter_name(spec);
-      const Tensor& value = at(prefix + "/" + name, spec.shape);
+      const Tensor& value = at(path_of(prefix, name), spec.shape);
       parameters.set(name, spec.trainable ? value.as_parameter() : value);
     }
   return parameters;

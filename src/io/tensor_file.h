@@ -28,11 +28,11 @@ class TensorFile {
   T get(const std::string& member) const;
 
   void add(const std::string& name, const Tensor& tensor);
-  /// Every parameter as "prefix/name".
+  /// Every parameter as "prefix/name", or by its name alone where the prefix is empty.
   void add(const std::string& prefix, const Parameters& parameters);
   /// Throws Error that names the file and the tensor where it is missing or has another shape.
   const Tensor& at(const std::string& name, const Shape& shape) const;
-  /// All parameters of the graph; the trainable ones are leaves of the tape.
+  /// All parameters of the graph, called as add() calls them; the trainable ones are leaves of the tape.
   Parameters parameters(const std::string& prefix, const Graph& graph) const;
 
   /// Replaces the file as a whole; "format" is added to the description.

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "io/keras_graph.h"
 #include "train/scores_stage.h"
+#include "train/trained_from.h"
 
 namespace svnet {
 namespace {
@@ -52,6 +53,10 @@ void Run::check_config() {
   };
   check_backbone(config_.scores.backbone, config_.scores.layer);
   check_backbone(config_.sv_net.backbone, config_.sv_net.layer);
+  const BackboneKind& tuned = backbone_kind(config_.sv_net.backbone);
+  const Graph graph = tuned.graph(tuned.preprocessing.height, true);
+  static_cast<void>(
+      trained_from(config_.training.fine_tune, tuned, graph, output_layer(tuned, graph, config_.sv_net.layer)));
   for (const auto& name : config_.evaluation.pipelines)
     check_backbone(parse_pipeline(name, "evaluation.pipelines").backbone, "");
   static_cast<void>(validation_categories());

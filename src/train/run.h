@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 
 #include "base/progress.h"
@@ -18,6 +19,7 @@ namespace svnet {
 /// One run: a configuration, its dataset and its folder. Each stage takes what the stages before it left in the folder,
 /// and is not run again while everything it depends on, down to the contents of pictures and weights, is the same:
 /// its file says so by a fingerprint, and the log says which stages were reused.
+/// Where the backbone is trained as well, it takes the pictures themselves.
 ///   features-<backbone>[-<layer>].h5 -> scores.h5 -> checkpoint-*.safetensors, metrics.csv, model.safetensors ->
 ///   evaluation.json
 class Run {
@@ -39,6 +41,9 @@ class Run {
   /// Writes config.yaml, trains, or goes on training where a checkpoint of the same run was left, and writes the model.
   Model model(Resume resume = Resume::automatic);
 
+  /// SV-net's score of every view of the dataset, by the model's own features of the top views.
+  std::vector<double> predicted_scores(const Model& model);
+
   /// Both tables, of training and of held-out categories, and evaluation.json (also copied to `json` where given).
   /// Throws Error where the folder holds no model of this configuration: evaluating never trains.
   EvaluationTables evaluation(std::uint64_t problems, const std::optional<std::filesystem::path>& json = {});
@@ -52,9 +57,11 @@ class Run {
   /// Of the model that this configuration leads to.
   std::string model_fingerprint();
   Model trained_model();
-  void train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume);
+  void train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
+                  Resume resume);
+  /// What the layers above `from` of sv_net.backbone take, for the top views of the categories that are not held out.
+  std::unique_ptr<ViewInputs> training_inputs(const Backbone& backbone, NodeId from);
   std::vector<bool> validation_categories() const;
-  std::vector<double> predicted_scores(const Model& model, const Features& features) const;
   void say(const std::string& line) const;
 
   Config config_;

@@ -76,8 +76,7 @@ class ScratchFolder {
 EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optional<std::filesystem::path>& json) {
   const Model model = trained_model();
   const Scores& scores = this->scores();
-  const std::vector<double> predicted =
-      predicted_scores(model, features(config_.sv_net.backbone, config_.sv_net.layer));
+  const std::vector<double> predicted = predicted_scores(model);
 
   std::map<std::string, std::pair<DistanceMatrix, Index>> distances;  // of each backbone, with its features' dimension
   std::vector<EvaluationPipeline> pipelines;

@@ -7,9 +7,11 @@
 #include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
+#include "models/trained_graph.h"
 #include "nn/graph/run.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
+#include "train/trained_from.h"
 #include "train/trainer.h"
 
 namespace svnet {
@@ -72,13 +74,14 @@ std::string Run::model_fingerprint() {
                            " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
                            static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
                            std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
+  if (t.fine_tune != Config::Training::FineTune::none)
+    hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
   return hash.hex();
 }
 
 Model Run::model(Resume resume) {
   write_atomically(folder_ / "config.yaml", to_yaml(config_));
   const Scores& scores = this->scores();
-  const Features& features = this->features(config_.sv_net.backbone, config_.sv_net.layer);
   const std::string wanted = model_fingerprint();
   const auto path = folder_ / "model.safetensors";
   if (std::filesystem::exists(path) && resume == Resume::automatic) try {
@@ -98,7 +101,7 @@ Model Run::model(Resume resume) {
               .backbone_graph = source.backbone.graph(),
               .backbone_parameters = source.backbone.parameters(),
               .angles = angles,
-              .head = sv_net({.features = features.dimension,
+              .head = sv_net({.features = source.backbone.dimension(),
                               .width = config_.sv_net.width,
                               .dropout = config_.sv_net.dropout,
                               .angles = angles}),
@@ -110,13 +113,17 @@ Model Run::model(Resume resume) {
   for (std::size_t c = 0; c < training.size(); ++c) training[c] = !held_out_[c] && !validating[c];
   const Target target =
       config_.sv_net.target == Config::SvNet::Target::individual ? Target::individual : Target::global;
-  const TrainingSet training_set(dataset_, features, scores, training, target, angles);
+  const NodeId output = source.backbone.graph().find(source.backbone.output_name());
+  const NodeId from = trained_from(config_.training.fine_tune, source.backbone.kind(), source.backbone.graph(), output);
+  const std::unique_ptr<ViewInputs> inputs = training_inputs(source.backbone, from);
+  const TrainingSet training_set(dataset_, *inputs, scores, training, target, angles);
   std::optional<TrainingSet> validation_set;
   if (config_.training.validation_categories > 0)
-    validation_set.emplace(dataset_, features, scores, validating, target, angles);
-  say(joined("SV-net: ", model.head.parameter_count(), " parameters, ", training_set.size(), " views to learn from",
+    validation_set.emplace(dataset_, *inputs, scores, validating, target, angles);
+  const Graph trained = trained_graph(source.backbone.graph(), from, output, model.head);
+  say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " views to learn from",
              validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
-  train_into(model, training_set, validation_set ? &*validation_set : nullptr, resume);
+  train_into(model, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
   write_model(path, model);
   return model;
 }
@@ -131,47 +138,81 @@ Model Run::trained_model() {
   return model;
 }
 
-void Run::train_into(Model& model, const TrainingSet& training, const TrainingSet* validation, Resume resume) {
+std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeId from) {
+  const Graph& graph = backbone.graph();
+  if (graph.node(from).name == backbone.output_name())
+    return std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
+  if (std::holds_alternative<InputLayer>(graph.node(from).layer))
+    return std::make_unique<PictureInputs>(dataset_, backbone.preprocessing(), nullptr);
+  auto inputs = std::make_unique<PictureInputs>(dataset_, backbone.preprocessing(),
+                                                std::make_shared<Inference>(graph, backbone.parameters(), from));
+  std::vector<Index> top_views;
+  for (const auto& pose : dataset_.poses)
+    if (!held_out_[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
+  inputs->keep(top_views, messages_);
+  return inputs;
+}
+
+void Run::train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
+                     Resume resume) {
   TrainerOptions options = trainer_options(config_, model.input_fingerprint);
-  options.schedule = schedule(config_.training, Trainer(model.head, training, validation, options).steps_per_epoch());
-  Trainer trainer(model.head, training, validation, options);
+  options.schedule = schedule(config_.training, Trainer(graph, training, validation, options).steps_per_epoch());
+  Trainer trainer(graph, training, validation, options);
   const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
   std::optional<Checkpoint> from;
   if (resume == Resume::automatic) try {
       if (read_checkpoint_fingerprint(last) == model.input_fingerprint &&
           read_checkpoint_fingerprint(best) == model.input_fingerprint) {
-        from = read_checkpoint(last, model.head, trainer.optimizer_state());
+        from = read_checkpoint(last, graph, trainer.optimizer_state());
         say(joined("training: goes on after epoch ", from->epoch));
       }
     } catch (const Error& error) {
       say(joined("training starts anew: ", error.what()));
     }
   trainer.train(
-      std::move(from),
+      from ? std::move(*from)
+           : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
         if (is_best) write_checkpoint(best, state);
         write_checkpoint(last, state);
         write_atomically(folder_ / "metrics.csv", state.metrics);
       },
       messages_);
-  model.head_parameters = read_checkpoint(best, model.head, trainer.optimizer_state()).parameters;
+  take_trained(read_checkpoint(best, graph, trainer.optimizer_state()).parameters, model.backbone_parameters,
+               model.head_parameters);
 }
 
-std::vector<double> Run::predicted_scores(const Model& model, const Features& features) const {
-  const Index angles = angle_count(model.angles);
+std::vector<double> Run::predicted_scores(const Model& model) {
+  std::unique_ptr<ViewInputs> inputs;
+  if (config_.training.fine_tune == Config::Training::FineTune::none)
+    inputs = std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
+  else
+    inputs =
+        std::make_unique<PictureInputs>(dataset_, model.preprocessing,
+                                        std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
+                                                                    model.backbone_graph.find(model.backbone_output)));
+  const Index dimension = element_count(inputs->shape()), angles = angle_count(model.angles);
+  const auto poses = std::span(dataset_.poses);
   std::vector<double> predicted;
-  for (const auto& pose : dataset_.poses) {
-    // One row per view: the features of the pose's top view, and the view's angles.
-    Tensor top = Tensor::empty({pose.view_count, features.dimension}),
-           encoded = Tensor::empty({pose.view_count, angles});
-    for (Index i = 0; i < pose.view_count; ++i) {
-      const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + i)];
-      std::copy_n(features.values.data() + pose.top_view * features.dimension, features.dimension,
-                  top.data<float>() + i * features.dimension);
-      encode_angles(model.angles, view.theta_deg, view.phi_deg, encoded.data<float>() + i * angles);
+  constexpr std::size_t kPoses = 16;  // whose pictures are looked at together
+  for (std::size_t first = 0; first < poses.size(); first += kPoses) {
+    const auto part = poses.subspan(first, std::min(kPoses, poses.size() - first));
+    std::vector<Index> top_views;
+    for (const auto& pose : part) top_views.push_back(pose.top_view);
+    const Tensor features = inputs->batch(top_views);
+    for (std::size_t p = 0; p < part.size(); ++p) {
+      // One row per view: the features of the pose's top view, and the view's angles.
+      const auto& pose = part[p];
+      Tensor top = Tensor::empty({pose.view_count, dimension}), encoded = Tensor::empty({pose.view_count, angles});
+      for (Index i = 0; i < pose.view_count; ++i) {
+        const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + i)];
+        std::copy_n(features.data<float>() + static_cast<Index>(p) * dimension, dimension,
+                    top.data<float>() + i * dimension);
+        encode_angles(model.angles, view.theta_deg, view.phi_deg, encoded.data<float>() + i * angles);
+      }
+      const Tensor score = infer(model.head, model.head_parameters, {top, encoded}, {model.head.output()})[0];
+      predicted.insert(predicted.end(), score.data<float>(), score.data<float>() + pose.view_count);
     }
-    const Tensor score = infer(model.head, model.head_parameters, {top, encoded}, {model.head.output()})[0];
-    predicted.insert(predicted.end(), score.data<float>(), score.data<float>() + pose.view_count);
   }
   return predicted;
 }

@@ -99,7 +99,7 @@ Index Trainer::steps_per_epoch() const {
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
   const TrainingContext context{.seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps)};
-  const Tensor score = svnet::train(graph_, parameters, {batch.features, batch.angles}, {graph_.output()}, context)[0];
+  const Tensor score = svnet::train(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()}, context)[0];
   const Tensor loss = ops::mean_squared_error(score, batch.targets);
   check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
         "; a smaller learning rate may help");
@@ -116,24 +116,27 @@ double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) 
   double sum = 0;
   std::vector<std::int32_t> examples(static_cast<std::size_t>(set.size()));
   std::iota(examples.begin(), examples.end(), 0);
-  constexpr Index kBatch = 256;
-  for (Index begin = 0; begin < set.size(); begin += kBatch) {
+  // Large batches of features, few pictures: a backbone's activations are up to a hundred times its input.
+  const Index most = std::clamp<Index>((Index{1} << 22) / element_count(set.input_shape()), 1, 256);
+  for (Index begin = 0; begin < set.size(); begin += most) {
     const auto part = std::span(examples).subspan(static_cast<std::size_t>(begin),
-                                                  static_cast<std::size_t>(std::min(kBatch, set.size() - begin)));
+                                                  static_cast<std::size_t>(std::min(most, set.size() - begin)));
     const auto batch = set.batch(part);
-    const Tensor score = infer(graph_, parameters, {batch.features, batch.angles}, {graph_.output()})[0];
+    const Tensor score = infer(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()})[0];
     sum += ops::mean_squared_error(score, batch.targets).item() * static_cast<double>(part.size());
   }
   return sum / static_cast<double>(set.size());
 }
 
-void Trainer::train(std::optional<Checkpoint> from,
-                    const std::function<void(const Checkpoint&, bool best)>& after_epoch, const Messages& messages) {
-  Checkpoint state = from ? std::move(*from)
-                          : Checkpoint{.input_fingerprint = options_.input_fingerprint,
-                                       .metrics = kMetricsHeader,
-                                       .parameters = initial_parameters(graph_, options_.seed),
-                                       .optimizer = {}};
+Checkpoint Trainer::beginning(Parameters parameters) const {
+  return {.input_fingerprint = options_.input_fingerprint,
+          .metrics = kMetricsHeader,
+          .parameters = std::move(parameters),
+          .optimizer = {}};
+}
+
+void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
+                    const Messages& messages) {
   const auto optimizer = new_optimizer(state.parameters);
   optimizer->restore(state.optimizer, state.steps);
   state.optimizer = optimizer->state();

@@ -1,6 +1,5 @@
 #pragma once
 #include <functional>
-#include <optional>
 #include <string>
 
 #include "base/progress.h"
@@ -20,17 +19,20 @@ struct TrainerOptions {
   std::string input_fingerprint;  // copied into checkpoints
 };
 
-/// Trains a graph with inputs (features, angles) and one score by mean squared error.
+/// Trains a graph with inputs (top view, angles) and one score by mean squared error.
 class Trainer {
  public:
   /// `validation` may be empty (nullptr). Keeps references.
   Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
           const TrainerOptions& options);
 
-  /// Starts from the initialisers, or goes on from a checkpoint with the same bits as if it had never stopped. After
+  /// What a training starts from.
+  Checkpoint beginning(Parameters parameters) const;
+
+  /// Goes on from a checkpoint with the same bits as if it had never stopped, changing its parameters in place. After
   /// each epoch calls `after_epoch` with the state and whether the epoch is the best so far: by validation loss where
   /// there is a validation set, else by training loss. Throws Error where the loss or a gradient is not finite.
-  void train(std::optional<Checkpoint> from, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
+  void train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
 
   /// For reading a checkpoint: tensors of the shapes of the optimizer's state.

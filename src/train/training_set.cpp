@@ -19,16 +19,15 @@ std::vector<double> scaled_targets(const ViewDataset& dataset, const Scores& sco
 
 }  // namespace
 
-TrainingSet::TrainingSet(const ViewDataset& dataset, const Features& features, const Scores& scores,
+TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, const Scores& scores,
                          const std::vector<bool>& categories, Target target, AngleEncoding angles)
-    : features_(features), angles_(angles) {
-  check_rows(dataset, features.paths, "features");
+    : inputs_(inputs), angles_(angles) {
   check_rows(dataset, scores.paths, "scores");
   const std::vector<double> targets = scaled_targets(dataset, scores, target);
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
     if (!categories[static_cast<std::size_t>(view.category)] || !std::isfinite(targets[i])) continue;
-    Example example{.top_row = dataset.top_view(view.pose), .angles = {}, .target = static_cast<float>(targets[i])};
+    Example example{.top_view = dataset.top_view(view.pose), .angles = {}, .target = static_cast<float>(targets[i])};
     encode_angles(angles, view.theta_deg, view.phi_deg, example.angles);
     examples_.push_back(example);
   }
@@ -36,15 +35,16 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const Features& features, c
 
 TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) const {
   const auto count = static_cast<Index>(examples.size());
-  const Index dimension = features_.dimension, angle_numbers = angle_count(angles_);
-  Batch batch{Tensor::empty({count, dimension}), Tensor::empty({count, angle_numbers}), Tensor::empty({count, 1})};
+  const Index angle_numbers = angle_count(angles_);
+  Batch batch{{}, Tensor::empty({count, angle_numbers}), Tensor::empty({count, 1})};
+  std::vector<Index> top_views;
   for (Index i = 0; i < count; ++i) {
     const Example& example = examples_[static_cast<std::size_t>(examples[static_cast<std::size_t>(i)])];
-    std::copy_n(features_.values.data() + example.top_row * dimension, dimension,
-                batch.features.data<float>() + i * dimension);
+    top_views.push_back(example.top_view);
     std::copy_n(example.angles, angle_numbers, batch.angles.data<float>() + i * angle_numbers);
     batch.targets.data<float>()[i] = example.target;
   }
+  batch.top_views = inputs_.batch(top_views);
   return batch;
 }
 

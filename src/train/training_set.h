@@ -1,40 +1,43 @@
 #pragma once
 #include <vector>
 
-#include "io/features_file.h"
 #include "io/scores_file.h"
 #include "io/view_dataset.h"
 #include "models/sv_net.h"
 #include "nn/tensor.h"
+#include "train/view_inputs.h"
 
 namespace svnet {
 
 enum class Target { individual, global };
 
-/// What SV-net learns from: (features of a pose's top view, angles of a view) -> scaled score of the view.
+/// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view.
 class TrainingSet {
  public:
-  /// The views of `categories` that have a score. Rows of features and scores are the dataset's views (Error where they
-  /// are not). Keeps a reference to the features.
-  TrainingSet(const ViewDataset& dataset, const Features& features, const Scores& scores,
+  /// The views of `categories` that have a score. Rows of scores are the dataset's views (Error where they are not).
+  /// Keeps a reference to the inputs.
+  TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, const Scores& scores,
               const std::vector<bool>& categories, Target target, AngleEncoding angles);
 
   Index size() const { return static_cast<Index>(examples_.size()); }
 
+  /// The shape of one example's top view.
+  Shape input_shape() const { return inputs_.shape(); }
+
   struct Batch {
-    Tensor features;  // (B, D)
-    Tensor angles;    // (B, angle_count)
-    Tensor targets;   // (B, 1)
+    Tensor top_views;  // (B, …)
+    Tensor angles;     // (B, angle_count)
+    Tensor targets;    // (B, 1)
   };
   Batch batch(std::span<const std::int32_t> examples) const;
 
  private:
   struct Example {
-    Index top_row;
+    Index top_view;
     float angles[3];
     float target;
   };
-  const Features& features_;
+  const ViewInputs& inputs_;
   AngleEncoding angles_;
   std::vector<Example> examples_;
 };

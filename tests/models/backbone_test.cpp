@@ -5,6 +5,7 @@
 
 #include "base/random.h"
 #include "models/sv_net.h"
+#include "models/trained_graph.h"
 #include "nn/graph/run.h"
 #include "nn/runtime/folding.h"
 
@@ -115,4 +116,45 @@ TEST_CASE("angles are encoded as documented") {
   CHECK(encoded[0] == Approx(0).margin(1e-7));
   CHECK(encoded[1] == Approx(0.5));
   CHECK(encoded[2] == Approx(std::sqrt(3) / 2));
+}
+
+TEST_CASE("the last block of every backbone takes nothing but the output of one layer") {
+  const std::pair<const char*, const char*> first_layers[] = {
+      {"vgg16", "block5_conv1"},   {"vgg19", "block5_conv1"},           {"xception", "block14_sepconv1"},
+      {"mobilenet", "conv_dw_13"}, {"mobilenet_v2", "block_16_expand"}, {"tiny_xception", "block5_shortcut"}};
+  REQUIRE(std::size(first_layers) == backbone_kinds().size());
+  for (const auto& [name, first] : first_layers) {
+    INFO(name);
+    const BackboneKind& kind = backbone_kind(name);
+    const Graph graph = kind.graph(kind.preprocessing.height, false);
+    const NodeId output = output_layer(kind, graph, "");
+    const Graph head = sv_net({.features = element_count(graph.node(output).shape), .width = 4});
+    const Graph trained = trained_graph(graph, graph.find(kind.last_block_input), output, head);
+    CHECK(trained.node(1).name == std::string("backbone/") + first);
+    CHECK(trained.inputs().size() == 2);
+    CHECK(trained.node(trained.inputs()[0]).shape == graph.node(graph.find(kind.last_block_input)).shape);
+    CHECK(trained_graph(graph, 0, output, head).parameter_count() == graph.parameter_count() + head.parameter_count());
+    CHECK(trained_graph(graph, output, output, head).parameter_count() == head.parameter_count());
+  }
+}
+
+TEST_CASE("what is trained may not reach past the frozen layers") {
+  const Graph graph = backbone_kind("tiny_xception").graph(96, false);
+  const Graph head = sv_net({.features = 256, .width = 4});
+  CHECK_THROWS_WITH(trained_graph(graph, graph.find("block5_sepconv1"), graph.output(), head),
+                    "[trained_graph] layer 'block5_shortcut' takes 'block4_act', which lies below 'block5_sepconv1'");
+}
+
+TEST_CASE("training changes copies of a backbone's numbers") {
+  const BackboneKind& kind = backbone_kind("tiny_xception");
+  const Graph graph = kind.graph(96, false), head = sv_net({.features = 256, .width = 4});
+  Parameters backbone = initial_parameters(graph, 1), head_parameters;
+  const Graph trained = trained_graph(graph, graph.find(kind.last_block_input), graph.output(), head);
+  Parameters parameters = trained_parameters(trained, backbone, head, 2);
+  const float before = backbone.at("block5_sepconv1_bn/gamma").data<float>()[0];
+  parameters.at("backbone/block5_sepconv1_bn/gamma").data<float>()[0] = 7;
+  CHECK(backbone.at("block5_sepconv1_bn/gamma").data<float>()[0] == before);
+  take_trained(parameters, backbone, head_parameters);
+  CHECK(backbone.at("block5_sepconv1_bn/gamma").data<float>()[0] == 7);
+  CHECK(head_parameters.items().size() == initial_parameters(head, 2).items().size());
 }

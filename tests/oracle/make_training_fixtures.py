@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what Keras does in ten training steps: vgg_like.safetensors and sv_net.safetensors.
+"""Writes what Keras does in ten training steps: vgg_like.safetensors, sv_net.safetensors and fine_tuned.safetensors.
 
 Usage: make_training_fixtures.py FOLDER [--large]. Needs Keras with TensorFlow, and safetensors (the committed files in
 tests/fixtures/training: Keras 3.15.1, TensorFlow 2.21.0, without --large). tests/train/replay_training_test.cpp replays
@@ -7,7 +7,7 @@ them.
 
 Tensors: the inputs and targets of B batches (B, 8, …), of which step s uses batch s mod B; parameters/LAYER/NAME, the
 initial weights; losses (10), before each step; inference, the outputs for the first batch after the last step, in
-inference mode. Metadata: learning_rate.
+inference mode. Metadata: learning_rate. fine_tuned has losses and inference twice, as all/… and last_block/….
 """
 import os
 import pathlib
@@ -43,10 +43,8 @@ def randomised_norms(model, random):
             layer.moving_variance.assign(random.uniform(0.5, 1.5, shape))
 
 
-def record(path, model, loss, optimizer, learning_rate, inputs, targets, given):
-    """optimizer: makes one for a learning rate; inputs, targets: lists of (B, 8, …) as the model takes them; given: the tensors that are written for them."""
-    tensors = given | weights_of(model)
-    optimizer = optimizer(learning_rate)
+def trained(name, model, loss, optimizer, inputs, targets):
+    """The losses of the steps and the outputs after them; inputs, targets: lists of (B, 8, …) as the model takes them."""
     losses = []
     for step in range(STEPS):
         batch = step % len(targets)
@@ -56,10 +54,15 @@ def record(path, model, loss, optimizer, learning_rate, inputs, targets, given):
         optimizer.apply(gradients, model.trainable_variables)
         losses.append(float(value))
     assert len(set(losses)) == STEPS and np.isfinite(losses).all()
-    tensors["losses"] = np.array(losses)
-    tensors["inference"] = model([x[0] for x in inputs], training=False).numpy()
+    print(name, "losses", *(f"{value:.6f}" for value in losses))
+    return {"losses": np.array(losses), "inference": model([x[0] for x in inputs], training=False).numpy()}
+
+
+def record(path, model, loss, optimizer, learning_rate, inputs, targets, given):
+    """optimizer: makes one for a learning rate; given: the tensors that are written for inputs and targets."""
+    tensors = given | weights_of(model)
+    tensors |= trained(path.name, model, loss, optimizer(learning_rate), inputs, targets)
     save_file(tensors, path, metadata={"learning_rate": repr(learning_rate)})
-    print(path.name, "losses", *(f"{value:.6f}" for value in losses))
 
 
 def vgg_like(path, filters, units, batches):
@@ -93,21 +96,30 @@ def vgg_like(path, filters, units, batches):
     )
 
 
-def sv_net(path, features, width, batches):
-    """SV-net (PAPER.md section 5) without dropout; Adam, mean squared error."""
-    keras.utils.set_random_seed(31)
-    random = np.random.default_rng(32)
+def sv_net_head(features, angles, width):
+    """SV-net (PAPER.md section 5) without dropout."""
 
     def block(prefix, x, units, activation="relu"):
         x = layers.Dense(units, name=prefix + "_fc")(x)
         x = layers.BatchNormalization(name=prefix + "_bn")(x)
         return layers.Activation(activation)(x)
 
-    inputs = [keras.Input((features,), name="features"), keras.Input((2,), name="angles")]
-    x = block("mlp1_2", block("mlp1_1", inputs[0], width), width)
-    x = layers.Concatenate()([x, inputs[1]])
+    x = block("mlp1_2", block("mlp1_1", features, width), width)
+    x = layers.Concatenate()([x, angles])
     x = block("mlp2_2", block("mlp2_1", x, width), width)
-    model = keras.Model(inputs, block("mlp2_3", x, 1, "sigmoid"))
+    return block("mlp2_3", x, 1, "sigmoid")
+
+
+def mean_squared_error(truth, score):
+    return tf.reduce_mean(tf.square(score - truth))
+
+
+def sv_net(path, features, width, batches):
+    """The head alone; Adam, mean squared error."""
+    keras.utils.set_random_seed(31)
+    random = np.random.default_rng(32)
+    inputs = [keras.Input((features,), name="features"), keras.Input((2,), name="angles")]
+    model = keras.Model(inputs, sv_net_head(*inputs, width))
     randomised_norms(model, random)
     given = {
         "features": np.maximum(random.normal(size=(batches, BATCH, features)), 0).astype(np.float32),
@@ -117,7 +129,7 @@ def sv_net(path, features, width, batches):
     record(
         path,
         model,
-        lambda truth, score: tf.reduce_mean(tf.square(score - truth)),
+        mean_squared_error,
         keras.optimizers.Adam,
         1e-3,
         [given["features"], given["angles"]],
@@ -126,11 +138,48 @@ def sv_net(path, features, width, batches):
     )
 
 
+def fine_tuned(path, filters, width, batches):
+    """Three blocks of 3×3 convolution, batch norm and max pooling below SV-net: all trained, or but the last block frozen."""
+    keras.utils.set_random_seed(41)
+    random = np.random.default_rng(42)
+    inputs = [keras.Input((16, 16, 3), name="image"), keras.Input((2,), name="angles")]
+    x = inputs[0]
+    for number, count in enumerate(filters, 1):
+        x = layers.Conv2D(count, 3, padding="same", activation="relu", name=f"block{number}_conv")(x)
+        x = layers.BatchNormalization(name=f"block{number}_bn")(x)
+        x = layers.MaxPooling2D(name=f"block{number}_pool")(x)
+    model = keras.Model(inputs, sv_net_head(layers.Flatten()(x), inputs[1], width))
+    randomised_norms(model, random)
+    given = {
+        "images": random.integers(256, size=(batches, BATCH, 16, 16, 3)).astype(np.uint8),
+        "angles": random.uniform(-np.pi, np.pi, size=(batches, BATCH, 2)).astype(np.float32),
+        "scores": random.uniform(size=(batches, BATCH, 1)).astype(np.float32),
+    }
+    tensors = given | weights_of(model)
+    for name, frozen in ("all", ()), ("last_block", ("block1_", "block2_")):
+        for layer in model.layers:
+            layer.trainable = not layer.name.startswith(tuple(frozen))
+            for weight in layer.weights:
+                weight.assign(tensors[f"parameters/{layer.name}/{weight.name}"])
+        results = trained(
+            f"{path.name} {name}",
+            model,
+            mean_squared_error,
+            keras.optimizers.Adam(1e-3),
+            [given["images"].astype(np.float32) / np.float32(255), given["angles"]],
+            given["scores"],
+        )
+        tensors |= {f"{name}/{key}": value for key, value in results.items()}
+    save_file(tensors, path, metadata={"learning_rate": repr(1e-3)})
+
+
 folder = pathlib.Path(sys.argv[1])
 folder.mkdir(parents=True, exist_ok=True)
 if "--large" in sys.argv[2:]:
     vgg_like(folder / "vgg_like.safetensors", [32, 64, 64], 128, 10)
     sv_net(folder / "sv_net.safetensors", 512, 256, 10)
+    fine_tuned(folder / "fine_tuned.safetensors", [32, 64, 64], 256, 10)
 else:
     vgg_like(folder / "vgg_like.safetensors", [4, 8, 8], 16, 4)
     sv_net(folder / "sv_net.safetensors", 32, 16, 4)
+    fine_tuned(folder / "fine_tuned.safetensors", [16, 16, 16], 16, 4)

@@ -18,6 +18,6 @@ def test_ten_steps(tmp_path, report):
     )
     assert replay.returncode == 0, replay.stdout + replay.stderr
     lines = [line for line in replay.stdout.splitlines() if "largest" in line]
-    assert len(lines) == 2, replay.stdout
+    assert len(lines) == 4, replay.stdout
     for line in lines:
         report(line)

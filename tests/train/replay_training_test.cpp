@@ -8,13 +8,16 @@
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <optional>
 
 #include "io/safetensors.h"
 #include "models/sv_net.h"
+#include "models/trained_graph.h"
 #include "nn/autograd.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
 #include "nn/optim/optimizer.h"
+#include "nn/runtime/inference.h"
 
 namespace svnet {
 namespace {
@@ -28,7 +31,7 @@ class Recording {
   explicit Recording(const std::string& name) : file_(folder() / (name + ".safetensors")) {}
 
   double learning_rate() const { return std::stod(file_.metadata().at("learning_rate")); }
-  std::vector<double> losses() const { return numbers<double>("losses", "F64"); }
+  std::vector<double> losses(const std::string& prefix) const { return numbers<double>(prefix + "losses", "F64"); }
   const std::vector<Index>& shape(const std::string& name) const { return file_.at(name).shape; }
   Index batches(const std::string& name) const { return shape(name)[0]; }
 
@@ -86,11 +89,12 @@ using MakeOptimizer = std::function<std::unique_ptr<Optimizer>(std::vector<Tenso
 using Inputs = std::function<std::vector<Tensor>(Index batch)>;
 using Loss = std::function<Tensor(const Tensor& output, Index batch)>;
 
-void replay(const std::string& name, const Recording& recording, const Graph& graph, Index batches,
-            const MakeOptimizer& make_optimizer, const Inputs& inputs, const Loss& loss) {
-  Parameters parameters = recording.parameters(graph);
+/// `results`: what the names of the recorded results begin with.
+void replay(const std::string& name, const Recording& recording, const std::string& results, const Graph& graph,
+            Parameters parameters, Index batches, const MakeOptimizer& make_optimizer, const Inputs& inputs,
+            const Loss& loss) {
   const auto optimizer = make_optimizer(trainable(graph, parameters));
-  const std::vector<double> expected = recording.losses();
+  const std::vector<double> expected = recording.losses(results);
   REQUIRE(expected.size() == kSteps);
   double largest = 0;
   for (int step = 0; step < kSteps; ++step) {
@@ -109,7 +113,7 @@ void replay(const std::string& name, const Recording& recording, const Graph& gr
   }
 
   const Tensor found = infer(graph, parameters, inputs(0), {graph.output()})[0];
-  const Tensor recorded = recording.tensor("inference");
+  const Tensor recorded = recording.tensor(results + "inference");
   REQUIRE(found.shape() == recorded.shape());
   double difference = 0;
   for (Index i = 0; i < found.size(); ++i)
@@ -141,8 +145,9 @@ Graph vgg_like(const Recording& recording) {
 
 TEST_CASE("a VGG-like network trained by SGD with momentum has Keras' losses") {
   const Recording recording("vgg_like");
+  const Graph graph = vgg_like(recording);
   replay(
-      "vgg_like", recording, vgg_like(recording), recording.batches("images"),
+      "vgg_like", recording, "", graph, recording.parameters(graph), recording.batches("images"),
       [](auto parameters) { return sgd(std::move(parameters), {.momentum = 0.9}); },
       [&](Index batch) { return std::vector{recording.batch("images", batch)}; },
       [&](const Tensor& logits, Index batch) { return ops::softmax_cross_entropy(logits, recording.classes(batch)); });
@@ -154,10 +159,54 @@ TEST_CASE("SV-net trained by Adam has Keras' losses") {
   const Graph graph =
       sv_net({.features = kernel[0], .width = kernel[1], .dropout = 0, .angles = AngleEncoding::radians});
   replay(
-      "sv_net", recording, graph, recording.batches("features"),
+      "sv_net", recording, "", graph, recording.parameters(graph), recording.batches("features"),
       [](auto parameters) { return adam(std::move(parameters)); },
       [&](Index batch) {
         return std::vector{recording.batch("features", batch), recording.batch("angles", batch)};
+      },
+      [&](const Tensor& score, Index batch) {
+        return ops::mean_squared_error(score, recording.batch("scores", batch));
+      });
+}
+
+/// The backbone of make_training_fixtures.py's fine_tuned.
+Graph small_backbone(const Recording& recording) {
+  Graph g;
+  NodeId x = g.input("image", {16, 16, 3});
+  for (const std::string block : {"block1", "block2", "block3"}) {
+    const Index filters = recording.shape("parameters/" + block + "_conv/bias")[0];
+    x = g.add(
+        block + "_conv",
+        Conv2dLayer{.filters = filters, .kh = 3, .kw = 3, .padding = Padding::same(), .activation = Activation::relu},
+        {x});
+    x = g.add(block + "_bn", BatchNormLayer{{.momentum = 0.99, .epsilon = 1e-3}}, {x});
+    x = g.add(block + "_pool", Pool2dLayer{.window = {.kh = 2, .kw = 2, .stride_h = 2, .stride_w = 2}}, {x});
+  }
+  return g;
+}
+
+TEST_CASE("a backbone trained with its head, whole or by its last block, has Keras' losses") {
+  const Recording recording("fine_tuned");
+  const Graph backbone = small_backbone(recording);
+  const auto& kernel = recording.shape("parameters/mlp1_1_fc/kernel");
+  const Graph head =
+      sv_net({.features = kernel[0], .width = kernel[1], .dropout = 0, .angles = AngleEncoding::radians});
+  const Parameters backbone_parameters = recording.parameters(backbone);
+  const auto [results, below] = GENERATE(std::pair<std::string, std::string>{"all/", "image"},
+                                         std::pair<std::string, std::string>{"last_block/", "block2_pool"});
+  const NodeId from = backbone.find(below);
+  const Graph graph = trained_graph(backbone, from, backbone.output(), head);
+  Parameters parameters = trained_parameters(graph, backbone_parameters, head, 0);
+  const Parameters head_parameters = recording.parameters(head);
+  for (const auto& [name, value] : head_parameters.items()) parameters.set("head/" + name, value);
+  std::optional<Inference> frozen;
+  if (from != backbone.inputs()[0]) frozen.emplace(backbone, backbone_parameters, from);
+  replay(
+      "fine_tuned " + results, recording, results, graph, parameters, recording.batches("images"),
+      [](auto tensors) { return adam(std::move(tensors)); },
+      [&](Index batch) {
+        const Tensor images = recording.batch("images", batch);
+        return std::vector{frozen ? frozen->run({images}) : images, recording.batch("angles", batch)};
       },
       [&](const Tensor& score, Index batch) {
         return ops::mean_squared_error(score, recording.batch("scores", batch));

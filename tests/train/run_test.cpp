@@ -5,6 +5,8 @@
 
 #include "base/parallel.h"
 #include "io/file_hash.h"
+#include "models/backbone.h"
+#include "predict/predictor.h"
 #include "small_dataset.h"
 
 using namespace svnet;
@@ -112,6 +114,67 @@ TEST_CASE("an interrupted training goes on to the same bits") {
   CHECK(log.has("training: goes on after epoch 2"));
 }
 
+TEST_CASE("a backbone is trained with its head, the same for any number of threads, and interrupted or not") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.training.fine_tune = GENERATE(Config::Training::FineTune::last_block, Config::Training::FineTune::all);
+  config.training.epochs = 2;
+  config.training.validation_categories = 1;
+  const bool all = config.training.fine_tune == Config::Training::FineTune::all;
+  const int threads_before = Parallel::shared().threads();
+  std::vector<std::string> expected;
+  for (int threads : {1, 2, 8}) {
+    Parallel::shared().resize(threads);
+    const auto hashes = results(config, temporary.path() / ("run" + std::to_string(threads)), {});
+    if (expected.empty()) expected = hashes;
+    CHECK(hashes == expected);
+  }
+  Parallel::shared().resize(threads_before);
+
+  struct Stop {};
+  const Messages stopping{.line =
+                              [](std::string_view line) {
+                                if (line.starts_with("epoch 2/")) throw Stop{};
+                              },
+                          .progress = {}};
+  CHECK_THROWS_AS(results(config, temporary.path() / "resumed", stopping), Stop);
+  Log log;
+  CHECK(results(config, temporary.path() / "resumed", log.messages) == expected);
+  CHECK(log.has("training: goes on after epoch 1"));
+
+  // Frozen layers keep their bits, trained ones do not.
+  const Model model = read_model(temporary.path() / "run1/model.safetensors");
+  const Backbone untrained = random_backbone("tiny_xception", "", 3);
+  const auto above = untrained.graph().ancestors({untrained.graph().find("block4_act")});
+  for (std::size_t i = 0; i < above.size(); ++i) {
+    const GraphNode& node = untrained.graph().nodes()[i];
+    for (const auto& spec : node.parameters) {
+      const auto before = untrained.parameters().at(node.parameter_name(spec)).values<float>(),
+                 after = model.backbone_parameters.at(node.parameter_name(spec)).values<float>();
+      INFO(node.parameter_name(spec));
+      CHECK(std::equal(before.begin(), before.end(), after.begin(), after.end()) == (!all && above[i]));
+    }
+  }
+
+  // The trained backbone's own features are what evaluation and prediction go by.
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  Run run(config, dataset, temporary.path() / "run1", {});
+  const std::vector<double> scores = run.predicted_scores(model);
+  const Predictor predictor(temporary.path() / "run1/model.safetensors");
+  for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose) {
+    const Image top =
+        read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path);
+    for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
+      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      const float predicted = predictor.scores(predictor.embed(top), std::span(&camera, 1))[0];
+      CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] == Approx(predicted).epsilon(1e-4));
+    }
+    const Tensor found = predictor.embed(top), old = untrained.features(untrained.batch(std::span(&top, 1)));
+    CHECK_FALSE(std::equal(old.data<float>(), old.data<float>() + old.size(), found.data<float>()));
+  }
+}
+
 TEST_CASE("a damaged stage is made again") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
@@ -141,10 +204,14 @@ TEST_CASE("scores leave out held-out categories") {
 TEST_CASE("a dry run leaves nothing behind") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
-  const Config config = small_config(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
   Log log;
   dry_run(config, read_view_dataset(config.dataset.root), log.messages);
   CHECK(log.has("epoch 1/1"));
+  config.training.fine_tune = Config::Training::FineTune::all;
+  Log tuned;
+  dry_run(config, read_view_dataset(config.dataset.root), tuned.messages);
+  CHECK(tuned.has("epoch 1/1"));
 }
 
 TEST_CASE("a configuration that does not fit the dataset is refused") {
@@ -166,6 +233,12 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   config.sv_net.backbone = "tiny_xception";
   config.sv_net.layer = "block9";
   CHECK_THROWS_WITH(run(), Catch::Contains("no layer 'block9'"));
+  config.sv_net.layer = "block4_act";
+  config.training.fine_tune = Config::Training::FineTune::last_block;
+  CHECK_THROWS_WITH(run(),
+                    "training.fine_tune: last_block, but sv_net.layer 'block4_act' is not above the input of the last "
+                    "block of tiny_xception, which is the output of 'block4_act'");
+  config.training.fine_tune = Config::Training::FineTune::none;
   config.sv_net.layer = "";
   config.evaluation.pipelines = {"foo_ward"};
   CHECK_THROWS_WITH(run(), Catch::Contains("there is no backbone 'foo'"));

@@ -9,7 +9,8 @@
 namespace svnet {
 
 /// What svnet-train and svnet-eval are told: the keys of a configuration file, with their defaults. Their meanings and
-/// ranges stand in one table in config_table.cpp; configs/paper.yaml shows them all. Backbones are names of the registry.
+/// ranges stand in one table in config_table.cpp; configs/paper.yaml shows them all. Backbones are names of the
+/// registry.
 struct Config {
   struct Dataset {
     std::filesystem::path root;
@@ -44,6 +45,7 @@ struct Config {
   struct Training {
     enum class Optimizer { adam, sgd };
     enum class Schedule { constant, step, cosine };
+    enum class FineTune { none, last_block, all };
     Index epochs = 10;
     Index batch_size = 32;
     double learning_rate = 1e-3;
@@ -53,6 +55,7 @@ struct Config {
     Index step_epochs = 5;
     double step_factor = 0.1;
     Index validation_categories = 0;
+    FineTune fine_tune = FineTune::none;
   };
   struct Evaluation {
     enum class Nmi { arithmetic, geometric };

@@ -102,7 +102,7 @@ std::vector<BoundKey> bound_keys(Config& c) {
       choice("scores.singletons", c.scores.singletons, {"zero", "skip"},
              "A view with no pair to count scores zero, or is left out of the individual mean."),
 
-      text("sv_net.backbone", c.sv_net.backbone, backbone, "Extracts the features of the top image; stays frozen."),
+      text("sv_net.backbone", c.sv_net.backbone, backbone, "Extracts the features of the top image."),
       text("sv_net.layer", c.sv_net.layer, layer, "The layer that feeds the head. Empty: the pooled output."),
       whole("sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
       number("sv_net.dropout", c.sv_net.dropout, kBelowOne, "Share of the activations that dropout zeroes."),
@@ -122,6 +122,8 @@ std::vector<BoundKey> bound_keys(Config& c) {
              "The learning rate is multiplied by this at each step; schedule step only."),
       whole("training.validation_categories", c.training.validation_categories, kNotNegative,
             "Random training categories set aside to choose the best checkpoint by. 0: none."),
+      choice("training.fine_tune", c.training.fine_tune, {"none", "last_block", "all"},
+             "What is trained of sv_net.backbone, together with the head."),
 
       whole("evaluation.problems", c.evaluation.problems, kFromOne, "Clustering problems behind each table."),
       pipelines("evaluation.pipelines", c.evaluation.pipelines,

@@ -1,0 +1,17 @@
+#include "train/trained_from.h"
+
+namespace svnet {
+
+NodeId trained_from(Config::Training::FineTune fine_tune, const BackboneKind& kind, const Graph& graph, NodeId output) {
+  using FineTune = Config::Training::FineTune;
+  if (fine_tune == FineTune::none) return output;
+  if (fine_tune == FineTune::all) return graph.inputs().at(0);
+  const NodeId from = graph.find(kind.last_block_input);
+  check(!graph.ancestors({from})[static_cast<std::size_t>(output)],
+        "training.fine_tune: last_block, but sv_net.layer '", graph.node(output).name,
+        "' is not above the input of the last block of ", kind.name, ", which is the output of '",
+        kind.last_block_input, "'");
+  return from;
+}
+
+}  // namespace svnet
