@@ -9,8 +9,8 @@ namespace svnet {
 
 /// A backbone network that is known by name.
 struct BackboneKind {
-  std::string name;    // "mobilenet_v2"
-  std::string pooled;  // the layer that gives the features where none is asked for
+  std::string name;              // "mobilenet_v2"
+  std::string pooled;            // the layer that gives the features where none is asked for
   std::string last_block_input;  // the layer whose output is all that the last block, and what follows it, takes
   Preprocessing preprocessing;
   Graph (*graph)(Index size, bool top);

@@ -126,7 +126,8 @@ void add_batch_norm(Cases& cases) {
                         random_tensor({4}, 22)};
     for (auto convention : {ops::MomentumConvention::keras, ops::MomentumConvention::pytorch})
       cases.push_back({"batch_norm_training", to_string(s), inputs, [convention](const Inputs& in) {
-                         Tensor mean = Tensor::zeros({4}, DType::f64), variance = Tensor::full({4}, 1, DType::f64);
+                         const DType dtype = in[0].dtype();
+                         Tensor mean = Tensor::zeros({4}, dtype), variance = Tensor::full({4}, 1, dtype);
                          return ops::batch_norm_training(in[0], in[1], in[2], mean, variance,
                                                          {.convention = convention});
                        }});
@@ -135,8 +136,8 @@ void add_batch_norm(Cases& cases) {
     const Inputs inputs{random_tensor(s, 20, DType::f64, -1, 3), random_tensor({4}, 21, DType::f64, 0.5, 2),
                         random_tensor({4}, 22)};
     cases.push_back({"batch_norm_inference", to_string(s), inputs, [](const Inputs& in) {
-                       return ops::batch_norm_inference(in[0], in[1], in[2], random_tensor({4}, 23),
-                                                        random_tensor({4}, 24, DType::f64, 0.1, 2), 1e-3);
+                       return ops::batch_norm_inference(in[0], in[1], in[2], random_tensor({4}, 23, in[0].dtype()),
+                                                        random_tensor({4}, 24, in[0].dtype(), 0.1, 2), 1e-3);
                      }});
   }
 }
@@ -175,7 +176,7 @@ void add_shaping(Cases& cases) {
 void add_losses(Cases& cases) {
   for (const Shape& s : {Shape{7, 1}, Shape{3, 5}})
     cases.push_back({"mean_squared_error", to_string(s), {random_tensor(s, 37)}, [s](const Inputs& in) {
-                       return ops::mean_squared_error(in[0], random_tensor(s, 38));
+                       return ops::mean_squared_error(in[0], random_tensor(s, 38, in[0].dtype()));
                      }});
   cases.push_back({"softmax_cross_entropy", "", {random_tensor({4, 5}, 39, DType::f64, -3, 3)}, [](const Inputs& in) {
                      return ops::softmax_cross_entropy(in[0], {0, 4, 2, 2});
@@ -189,7 +190,8 @@ void add_network(Cases& cases) {
        {random_tensor({2, 6, 5, 2}, 40), random_tensor({3, 3, 2, 4}, 41), random_tensor({4}, 42, DType::f64, 0.5, 1.5),
         random_tensor({4}, 43), random_tensor({4, 3}, 44), random_tensor({3}, 45)},
        [](const Inputs& in) {
-         Tensor mean = Tensor::zeros({4}, DType::f64), variance = Tensor::full({4}, 1, DType::f64);
+         const DType dtype = in[0].dtype();
+         Tensor mean = Tensor::zeros({4}, dtype), variance = Tensor::full({4}, 1, dtype);
          const Tensor x = ops::conv2d(in[0], in[1], {.padding = Padding::same()});
          const Tensor y = ops::sigmoid(ops::batch_norm_training(x, in[2], in[3], mean, variance, {}));
          const Tensor z = ops::global_average_pool2d(ops::add({x, y}));
