@@ -62,7 +62,9 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
     double rarest = 1;
     for (Index v = 0; v < problems.views(); ++v)
       if (const double share = problems.inclusion_probability(v); share > 0) rarest = std::min(rarest, share);
-    const auto needed = static_cast<std::uint64_t>(std::ceil(static_cast<double>(options.min_samples) / rarest));
+    // The unluckiest of thousands of views is about four standard deviations behind its mean.
+    const double samples = static_cast<double>(options.min_samples), behind = 4 * std::sqrt(samples) + 8;
+    const auto needed = static_cast<std::uint64_t>(std::ceil((samples + behind) / rarest));
     const std::uint64_t at_look = needed == 0 ? 0 : next_look(needed - 1);
     expected = expected == 0 ? at_look : std::min(expected, at_look);
   }
@@ -94,7 +96,10 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
     team.sum(step.numbers());
     step.problems = last - sums.problems;
     sums.take(step);
-    progress.update(static_cast<Index>(sums.problems - start));
+    // What is expected may be too little: the task must not look finished before it is.
+    std::uint64_t shown = sums.problems - start;
+    if (expected > start && !finished(problems, options, sums)) shown = std::min(shown, expected - start - 1);
+    progress.update(static_cast<Index>(shown));
     if (watch.after_step) watch.after_step(sums);
   }
 }
