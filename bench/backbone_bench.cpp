@@ -1,4 +1,7 @@
 // backbone/<model>/batch:<n>: one inference of a whole batch, seeded random weights, to the pooled output.
+// Counters: `flops` and `bytes` of one iteration, as Inference::report counts them.
+#include <map>
+
 #include <benchmark/benchmark.h>
 
 #include "models/backbone.h"
@@ -6,11 +9,30 @@
 namespace svnet {
 namespace {
 
+struct Work {
+  double flops = 0, bytes = 0;
+};
+
+/// Counted once: google-benchmark calls a benchmark several times.
+const Work& work_of(const Backbone& network, Index batch) {
+  static std::map<std::pair<std::string, Index>, Work> known;
+  const auto [at, is_new] = known.try_emplace({network.kind().name, batch});
+  if (is_new)
+    for (const StepReport& step : network.network().report(batch)) {
+      at->second.flops += step.flops;
+      at->second.bytes += step.bytes;
+    }
+  return at->second;
+}
+
 void backbone(benchmark::State& state, const std::string& name) {
   const Backbone network = random_backbone(name, "", 1);
   const auto& input = network.preprocessing();
   const Tensor batch = Tensor::full({state.range(0), input.height, input.width, 3}, 0.25);
   for (auto _ : state) benchmark::DoNotOptimize(network.features(batch));
+  const Work& work = work_of(network, state.range(0));
+  state.counters["flops"] = work.flops;
+  state.counters["bytes"] = work.bytes;
 }
 
 const bool kRegistered = [] {

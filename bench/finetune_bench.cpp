@@ -1,4 +1,5 @@
 // finetune/vgg19/batch:<n>: one training step of VGG19 up to block5_pool, forward, backward and SGD.
+// Counter: `flops` of one step.
 #include <benchmark/benchmark.h>
 
 #include "models/vgg.h"
@@ -22,6 +23,15 @@ void finetune(benchmark::State& state) {
     autograd::backward(ops::mean_squared_error(features, targets), gradients);
     optimizer->step(gradients, 1e-6);
   }
+  double forward = 0, first = 0;  // 2 a weight and position; positions are those of the output
+  for (const GraphNode& node : graph.nodes()) {
+    if (node.parameters.empty()) continue;
+    const Shape& kernel = node.parameters[0].shape;
+    const double flops = 2.0 * static_cast<double>(element_count(kernel) * node.shape[0] * node.shape[1]);
+    if (first == 0) first = flops;
+    forward += flops;
+  }
+  state.counters["flops"] = static_cast<double>(state.range(0)) * (3 * forward - first);
 }
 BENCHMARK(finetune)->Name("finetune/vgg19")->ArgName("batch")->Arg(4)->Unit(benchmark::kMillisecond)->UseRealTime();
 

@@ -1,4 +1,5 @@
 // head_step/batch:<n>: one training step of the paper's head (25088 features, width 4096) with Adam.
+// Counters: `flops` and the fewest `bytes` of one step.
 #include <benchmark/benchmark.h>
 
 #include "models/sv_net.h"
@@ -24,6 +25,12 @@ void head_step(benchmark::State& state) {
     autograd::backward(ops::mean_squared_error(score, targets), gradients);
     optimizer->step(gradients, 1e-3);
   }
+  // Every weight is multiplied forwards and for its own gradient, all but the first layer's for that of its input.
+  // Weights are read forwards and backwards; Adam reads and writes them and both moments.
+  const auto weights = static_cast<double>(graph.parameter_count());
+  const double backwards = weights - 25088.0 * 4096.0;
+  state.counters["flops"] = 2 * static_cast<double>(state.range(0)) * (2 * weights + backwards);
+  state.counters["bytes"] = 4 * (7 * weights + backwards);
 }
 BENCHMARK(head_step)->ArgName("batch")->Arg(32)->Unit(benchmark::kMillisecond)->UseRealTime();
 
