@@ -20,8 +20,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
   file.write(path);
 }
 
-Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph,
-                           const std::vector<Tensor>& optimizer) {
+Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph, const std::vector<Shape>& optimizer) {
   const TensorFile file = TensorFile::read(path, "checkpoint");
   Checkpoint checkpoint{.input_fingerprint = file.get<std::string>("input_fingerprint"),
                         .epoch = file.get<Index>("epoch"),
@@ -31,13 +30,17 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph
                         .parameters = file.parameters("", graph),
                         .optimizer = {}};
   for (std::size_t i = 0; i < optimizer.size(); ++i)
-    checkpoint.optimizer.push_back(file.at("optimizer/" + std::to_string(i), optimizer[i].shape()));
+    checkpoint.optimizer.push_back(file.at("optimizer/" + std::to_string(i), optimizer[i]));
   return checkpoint;
+}
+
+Parameters read_checkpoint_parameters(const std::filesystem::path& path, const Graph& graph) {
+  return TensorFile::read(path, "checkpoint", "optimizer/").parameters("", graph);
 }
 
 std::string read_checkpoint_fingerprint(const std::filesystem::path& path) {
   if (!std::filesystem::exists(path)) return {};
-  return TensorFile::read(path, "checkpoint").get<std::string>("input_fingerprint");
+  return TensorFile::read(path, "checkpoint", "optimizer/").get<std::string>("input_fingerprint");
 }
 
 }  // namespace svnet

@@ -24,9 +24,12 @@ struct Checkpoint {
 /// Replaces the file as a whole.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// The parameters must be those of `graph`; the optimizer's state has the shapes of `optimizer`. Throws Error that
+/// The parameters must be those of `graph`; the optimizer's state has the shapes `optimizer`. Throws Error that
 /// names the file and what is wrong with it.
-Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph, const std::vector<Tensor>& optimizer);
+Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph, const std::vector<Shape>& optimizer);
+
+/// The parameters alone: the optimizer's state, which may be twice as large, is not read.
+Parameters read_checkpoint_parameters(const std::filesystem::path& path, const Graph& graph);
 
 /// The fingerprint alone; empty where the file does not exist. Throws Error where it is no checkpoint.
 std::string read_checkpoint_fingerprint(const std::filesystem::path& path);

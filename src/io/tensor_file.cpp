@@ -32,7 +32,7 @@ TensorFile::TensorFile(TensorFile&&) noexcept = default;
 TensorFile& TensorFile::operator=(TensorFile&&) noexcept = default;
 TensorFile::~TensorFile() = default;
 
-TensorFile TensorFile::read(const std::filesystem::path& path, const std::string& kind) {
+TensorFile TensorFile::read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out) {
   const SafetensorsFile raw(path);
   TensorFile file;
   file.path_ = path.string();
@@ -49,7 +49,9 @@ TensorFile TensorFile::read(const std::filesystem::path& path, const std::string
         kind);
   check(file.get<int>("format") == kFormat, file.path_, ": has format ", file.get<int>("format"),
         ", this svnet reads format ", kFormat);
-  for (const auto& tensor : raw.tensors()) file.tensors_.emplace_back(tensor.name, copied(file.path_, tensor));
+  for (const auto& tensor : raw.tensors())
+    if (left_out.empty() || !tensor.name.starts_with(left_out))
+      file.tensors_.emplace_back(tensor.name, copied(file.path_, tensor));
   return file;
 }
 

@@ -15,7 +15,8 @@ class TensorFile {
  public:
   /// `kind` ("model", "checkpoint") must be the description's "kind", and "format" the number that this version writes.
   /// Throws Error that names the file.
-  static TensorFile read(const std::filesystem::path& path, const std::string& kind);
+  /// Tensors whose names begin with `left_out` (none where it is empty) are not read.
+  static TensorFile read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out = "");
 
   TensorFile();
   TensorFile(TensorFile&&) noexcept;

@@ -163,7 +163,7 @@ void Run::train_into(Model& model, const Graph& graph, const TrainingSet& traini
   if (resume == Resume::automatic) try {
       if (read_checkpoint_fingerprint(last) == model.input_fingerprint &&
           read_checkpoint_fingerprint(best) == model.input_fingerprint) {
-        from = read_checkpoint(last, graph, trainer.optimizer_state());
+        from = read_checkpoint(last, graph, trainer.optimizer_shapes());
         say(joined("training: goes on after epoch ", from->epoch));
       }
     } catch (const Error& error) {
@@ -178,8 +178,7 @@ void Run::train_into(Model& model, const Graph& graph, const TrainingSet& traini
         write_atomically(folder_ / "metrics.csv", state.metrics);
       },
       messages_);
-  take_trained(read_checkpoint(best, graph, trainer.optimizer_state()).parameters, model.backbone_parameters,
-               model.head_parameters);
+  take_trained(read_checkpoint_parameters(best, graph), model.backbone_parameters, model.head_parameters);
 }
 
 std::vector<double> Run::predicted_scores(const Model& model) {

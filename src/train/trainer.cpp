@@ -87,7 +87,15 @@ std::unique_ptr<Optimizer> Trainer::new_optimizer(const Parameters& parameters) 
   return adam(std::move(tensors));
 }
 
-std::vector<Tensor> Trainer::optimizer_state() const { return new_optimizer(initial_parameters(graph_, 0))->state(); }
+std::vector<Shape> Trainer::optimizer_shapes() const {
+  std::vector<Shape> shapes;  // one of each parameter and moment
+  const int moments = options_.optimizer == TrainerOptions::Optimizer::sgd ? 1 : 2;
+  for (int moment = 0; moment < moments; ++moment)
+    for (const auto& node : graph_.nodes())
+      for (const auto& spec : node.parameters)
+        if (spec.trainable) shapes.push_back(spec.shape);
+  return shapes;
+}
 
 Index Trainer::steps_per_epoch() const {
   Index steps = 0;

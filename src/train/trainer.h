@@ -35,8 +35,8 @@ class Trainer {
   void train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
 
-  /// For reading a checkpoint: tensors of the shapes of the optimizer's state.
-  std::vector<Tensor> optimizer_state() const;
+  /// For reading a checkpoint: the shapes of the optimizer's state.
+  std::vector<Shape> optimizer_shapes() const;
 
   Index steps_per_epoch() const;
 
