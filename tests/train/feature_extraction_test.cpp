@@ -1,0 +1,94 @@
+#include "train/feature_extraction.h"
+
+#include <catch2/catch.hpp>
+#include <limits>
+
+#include "base/parallel.h"
+#include "io/hdf5/hdf5_file.h"
+#include "io/keras_graph.h"
+#include "nn/graph/keras_order.h"
+#include "small_dataset.h"
+
+using namespace svnet;
+
+namespace {
+
+/// The graph's parameters as a legacy Keras file; those of `changed` are `units` NaN.
+void write_legacy(const std::filesystem::path& path, const Graph& graph, const Parameters& parameters,
+                  const std::string& changed, Index units) {
+  Hdf5File file = Hdf5File::create(path);
+  std::vector<std::string> layers;
+  for (NodeId id : keras_order(graph, graph.output())) {
+    const GraphNode& node = graph.node(id);
+    if (node.parameters.empty()) continue;
+    std::vector<std::string> names;
+    for (const auto& spec : node.parameters) {
+      const Tensor& value = parameters.at(node.parameter_name(spec));
+      Shape shape = spec.shape;
+      std::vector<float> numbers(value.data<float>(), value.data<float>() + value.size());
+      if (node.name == changed) {
+        shape.back() = units;
+        numbers.assign(static_cast<std::size_t>(element_count(shape)), std::numeric_limits<float>::quiet_NaN());
+      }
+      file.write<float>(joined(node.name, "/", spec.name), shape, numbers);
+      names.push_back(spec.name);
+    }
+    file.write_text_list_attribute(node.name, "weight_names", names);
+    layers.push_back(node.name);
+  }
+  file.write_text_list_attribute("", "layer_names", layers);
+  file.close();
+}
+
+}  // namespace
+
+TEST_CASE("a damaged picture of a later batch is named, after the batches before it") {
+  const TemporaryFolder folder;
+  write_small_dataset(folder.path());
+  const ViewDataset dataset = read_view_dataset(folder.path());
+  REQUIRE(dataset.views.size() == 32);
+  const std::string damaged = dataset.views[20].path;
+  folder.write(damaged, "no picture");
+  const Backbone backbone = random_backbone("tiny_xception", "", 1);
+  const int threads_before = Parallel::shared().threads();
+  for (const int threads : {1, 3}) {
+    Parallel::shared().resize(threads);
+    CHECK_THROWS_WITH(extract_features(backbone, dataset, {}, {}), Catch::Contains(damaged));
+  }
+  Parallel::shared().resize(threads_before);
+}
+
+TEST_CASE("features do not depend on the pictures beside them") {
+  const TemporaryFolder folder;
+  write_small_dataset(folder.path());
+  ViewDataset dataset = read_view_dataset(folder.path());
+  const Backbone backbone = random_backbone("tiny_xception", "", 1);
+  const Features together = extract_features(backbone, dataset, {}, {});
+  dataset.views = {dataset.views[17]};
+  const Features alone = extract_features(backbone, dataset, {}, {});
+  REQUIRE(alone.count == 1);
+  for (Index i = 0; i < alone.dimension; ++i)
+    CHECK(alone.values[static_cast<std::size_t>(i)] ==
+          together.values[static_cast<std::size_t>(17 * together.dimension + i)]);
+}
+
+TEST_CASE("of a top that the output does not need shapes are checked, numbers not read") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "w.h5";
+  const BackboneKind& kind = backbone_kind("mobilenet");
+  const Graph graph = kind.graph(kind.preprocessing.height, true);
+  std::string top;
+  for (const auto& node : graph.nodes())
+    if (!node.parameters.empty()) top = node.name;
+  const Parameters parameters = initial_parameters(graph, 3);
+  write_legacy(path, graph, parameters, top, 1000);
+  KerasLoadReport report;
+  const Backbone backbone = read_backbone("mobilenet", path, "", &report);
+  CHECK(report.unused == std::vector<std::string>{top});
+  CHECK_FALSE(backbone.graph().contains(top));
+  CHECK_FALSE(backbone.parameters().contains(top + "/kernel"));
+  CHECK_THROWS_WITH(read_backbone("mobilenet", path, top),
+                    Catch::Contains("w.h5: dataset '" + top + "/kernel': value 0 is not finite"));
+  write_legacy(path, graph, parameters, top, 999);
+  CHECK_THROWS_WITH(read_backbone("mobilenet", path), Catch::Contains("the model expects '" + top + "'"));
+}
