@@ -1,8 +1,8 @@
 // svnet-render: a collection of views in simulation, as a robot with an RGB-D camera would make it.
 #include <algorithm>
 #include <fstream>
-#include <mutex>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/parallel.h"
 #include "base/text.h"
@@ -88,50 +88,81 @@ void write_text(const fs::path& path, const std::string& text) {
   check(static_cast<bool>(file.flush()), path.string(), ": cannot be written; is the disk full?");
 }
 
-/// Lays the object down, finds it, and writes its views into `folder`, the rest into `extra`. The manifest's entry.
+/// Whether the object reaches the border of the picture.
+bool is_cut_off(const Shot& shot) {
+  const auto object_at = [&](Index y, Index x) { return shot.mask[static_cast<std::size_t>(y * shot.width + x)] != 0; };
+  for (Index x = 0; x < shot.width; ++x)
+    if (object_at(0, x) || object_at(shot.height - 1, x)) return true;
+  for (Index y = 0; y < shot.height; ++y)
+    if (object_at(y, 0) || object_at(y, shot.width - 1)) return true;
+  return false;
+}
+
+/// One try at a pose.
+struct Collected {
+  PosedObject posed;
+  Overview overview;
+  LocalisedObject object;
+  std::vector<TakenView> views;
+};
+
+/// Lays the object down, finds it and takes its views. Throws Error where it is not found, or not all of it.
+Collected try_to_collect(const Mesh& mesh, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
+  const PosedObject posed = pose_object(mesh, pose, seed, number);
+  const Overview overview = take_overview(posed, seed, number);
+  Collected result{
+      posed,
+      overview,
+      localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
+               {overview.current.rgb, overview.current.depth}),
+      {}};
+  const Scene scene(&mesh, posed.object_to_world, posed.setting);
+  for (std::size_t view = 0; view < posed.views.size(); ++view) {
+    result.views.push_back(take_view(posed, scene, result.object, size, seed, number, view));
+    check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
+  }
+  return result;
+}
+
+/// Collects a pose, again under another light and elsewhere where it fails, as a robot's keeper would: its views into
+/// `folder`, the rest into `extra`. The manifest's entry.
 Json collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
              const fs::path& extra) {
-  constexpr std::uint32_t kAttempts = 8;
+  constexpr std::uint32_t kTries = 8;
+  std::optional<Collected> found;
+  std::uint32_t tries = 0;
+  while (!found) {
+    try {
+      found = try_to_collect(mesh, pose, options.size, options.seed * 1009 + tries++, number);
+    } catch (const Error& error) {
+      check(tries < kTries, "pose ", pose + 1, " was not collected in ", kTries, " tries: ", error.what());
+    }
+  }
   fs::create_directories(folder);
   fs::create_directories(extra);
-  for (std::uint32_t attempt = 0;; ++attempt) {
-    const std::uint64_t seed = options.seed * 1009 + attempt;
-    const PosedObject posed = pose_object(mesh, pose, seed, number);
-    const Overview overview = take_overview(posed, seed, number);
-    LocalisedObject object;
-    try {
-      object =
-          localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
-                   {overview.current.rgb, overview.current.depth});
-    } catch (const Error& error) {
-      // As a robot's keeper would: put it elsewhere, under another light.
-      check(attempt + 1 < kAttempts, "pose ", pose + 1, " was not found in ", kAttempts, " tries: ", error.what());
-      continue;
-    }
-    write_png(extra / "overview_background.png", overview.background.rgb);
-    write_depth_png(extra / "overview_background_depth.png", overview.background.depth);
-    write_png(extra / "overview.png", overview.current.rgb);
-    write_depth_png(extra / "overview_depth.png", overview.current.depth);
-    const Scene scene(&mesh, posed.object_to_world, posed.setting);
-    Json views = Json::array();
-    for (std::size_t view = 0; view < posed.views.size(); ++view) {
-      const TakenView taken = take_view(posed, scene, object, options.size, seed, number, view);
-      const Pose& from = posed.views[view];
-      const std::string name =
-          std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
-      write_png(folder / (name + ".png"), taken.picture.rgb);
-      write_depth_png(extra / (name + "_depth.png"), taken.picture.depth);
-      write_grey_png(extra / (name + "_mask.png"), taken.shot.height, taken.shot.width, taken.shot.mask);
-      views.push_back(name);
-    }
-    return Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
-                {"length_m", object.length_m},
-                {"width_m", object.width_m},
-                {"height_m", object.height_m},
-                {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
-                {"tries", attempt + 1},
-                {"views", views}};
+  write_png(extra / "overview_background.png", found->overview.background.rgb);
+  write_depth_png(extra / "overview_background_depth.png", found->overview.background.depth);
+  write_png(extra / "overview.png", found->overview.current.rgb);
+  write_depth_png(extra / "overview_depth.png", found->overview.current.depth);
+  Json names = Json::array();
+  for (std::size_t view = 0; view < found->views.size(); ++view) {
+    const TakenView& taken = found->views[view];
+    const Pose& from = found->posed.views[view];
+    const std::string name =
+        std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
+    write_png(folder / (name + ".png"), taken.picture.rgb);
+    write_depth_png(extra / (name + "_depth.png"), taken.picture.depth);
+    write_grey_png(extra / (name + "_mask.png"), taken.shot.height, taken.shot.width, taken.shot.mask);
+    names.push_back(name);
   }
+  const LocalisedObject& object = found->object;
+  return Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
+              {"length_m", object.length_m},
+              {"width_m", object.width_m},
+              {"height_m", object.height_m},
+              {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
+              {"tries", tries},
+              {"views", names}};
 }
 
 void render(const Options& options, Console& console) {

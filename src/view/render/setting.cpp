@@ -15,15 +15,12 @@ Setting random_setting(RandomStream& random) {
     Texture texture;
     float scale_m, gloss;
   };
-  static const std::array<Table, 8> kTables{{
-      {{0.62f, 0.61f, 0.58f}, {0.56f, 0.55f, 0.52f}, Texture::speckled, 0.004f, 0.02f},  // laminate
-      {{0.42f, 0.27f, 0.15f}, {0.33f, 0.20f, 0.10f}, Texture::wood, 0.012f, 0.03f},      // oak
-      {{0.66f, 0.52f, 0.36f}, {0.58f, 0.44f, 0.29f}, Texture::wood, 0.018f, 0.03f},      // birch
+  // Quiet ones, as in a laboratory: a loud table says more to a network than what lies on it.
+  static const std::array<Table, 4> kTables{{
+      {{0.62f, 0.61f, 0.58f}, {0.57f, 0.56f, 0.53f}, Texture::speckled, 0.004f, 0.02f},  // laminate
+      {{0.66f, 0.56f, 0.43f}, {0.62f, 0.52f, 0.39f}, Texture::wood, 0.018f, 0.03f},      // birch
       {{0.80f, 0.80f, 0.79f}, {0.78f, 0.78f, 0.77f}, Texture::plain, 0.01f, 0.03f},      // white board
-      {{0.10f, 0.17f, 0.28f}, {0.08f, 0.14f, 0.24f}, Texture::speckled, 0.002f, 0.0f},   // blue felt
-      {{0.16f, 0.28f, 0.17f}, {0.13f, 0.24f, 0.14f}, Texture::speckled, 0.002f, 0.0f},   // cutting mat
-      {{0.25f, 0.24f, 0.24f}, {0.20f, 0.19f, 0.19f}, Texture::speckled, 0.006f, 0.03f},  // stone
-      {{0.55f, 0.47f, 0.42f}, {0.49f, 0.41f, 0.36f}, Texture::checks, 0.05f, 0.02f},     // tiles
+      {{0.40f, 0.40f, 0.40f}, {0.37f, 0.37f, 0.37f}, Texture::speckled, 0.006f, 0.03f},  // stone
   }};
   const Table& chosen = kTables[random.below(static_cast<std::uint32_t>(kTables.size()))];
   Setting setting;

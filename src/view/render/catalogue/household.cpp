@@ -117,8 +117,6 @@ void tape(Sculptor& s, const Design& d) {
   const float r = d[0], w = d[1], t = d[2], core = d[3], loose = d[4];
   s.use(d.look[0]);
   const auto ring = [&](float outer, float inner, float width) {
-    Path loop;
-    (void)loop;
     s.plate(circle(outer, 64), width, 0.6f, {circle(inner, 64)});
   };
   ring(r, r - t, w);

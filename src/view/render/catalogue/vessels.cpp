@@ -49,10 +49,10 @@ void mug(Sculptor& s, const Design& d) {
            {5}, false, 1);
   s.use(d.look[2]);
   s.hoop({{radius(0.3f) - 1, 2 + (h - 2) * 0.3f},
-           {radius(0.3f) + 0.4f, 2 + (h - 2) * 0.3f},
-           {radius(0.5f) + 0.4f, 2 + (h - 2) * 0.5f},
-           {radius(0.5f) - 1, 2 + (h - 2) * 0.5f}},
-          56);
+          {radius(0.3f) + 0.4f, 2 + (h - 2) * 0.3f},
+          {radius(0.5f) + 0.4f, 2 + (h - 2) * 0.5f},
+          {radius(0.5f) - 1, 2 + (h - 2) * 0.5f}},
+         56);
 }
 
 /// radius, body height, neck radius, total height, shoulder; body, cap, label
@@ -206,7 +206,7 @@ void spray_bottle(Sculptor& s, const Design& d) {
   s.hoop({{r - 2, h * 0.12f}, {r + 0.6f, h * 0.12f}, {r + 0.6f, h * 0.45f}, {r - 2, h * 0.45f}}, 48)
       .scale(1, squeeze, 1);
   s.use(d.look[1]);
-  s.cylinder(neck * 1.25f, 18, 1).move(0, 0, h + 6).bend([&](Vec3 p) { return Vec3(p.x(), p.y(), p.z()); });
+  s.cylinder(neck * 1.25f, 18, 1).move(0, 0, h + 6);
   s.plate({{-neck * 1.5f, 14},
            {neck * 0.7f, 12},
            {neck * 0.8f, 28},
