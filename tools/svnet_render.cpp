@@ -128,7 +128,7 @@ Collected try_to_collect(const Mesh& mesh, Index pose, Index size, std::uint64_t
 /// `folder`, the rest into `extra`. The manifest's entry.
 Json collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
              const fs::path& extra) {
-  constexpr std::uint32_t kTries = 8;
+  constexpr std::uint32_t kTries = 16;
   std::optional<Collected> found;
   std::uint32_t tries = 0;
   while (!found) {

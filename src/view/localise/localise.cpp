@@ -43,7 +43,7 @@ Image image_of(const cv::Mat& picture) {
   return image;
 }
 
-/// The pixels of the object: parts less than about 12 pixels apart are one.
+/// The pixels of the object: parts less than about 16 pixels apart are one.
 cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
   constexpr int kSpeck_px = 12, kLeast_px = 40;
   cv::Mat labels, stats, centres;
@@ -53,7 +53,7 @@ cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
     for (int x = 0; x < clean.cols; ++x)
       if (clean(y, x) != 0 && stats.at<int>(labels.at<int>(y, x), cv::CC_STAT_AREA) < kSpeck_px) clean(y, x) = 0;
   cv::Mat1b joined;
-  cv::dilate(clean, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {13, 13}));
+  cv::dilate(clean, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
   count = cv::connectedComponents(joined, labels, 8);
   std::vector<int> area(static_cast<std::size_t>(count), 0);
   for (int y = 0; y < clean.rows; ++y)
