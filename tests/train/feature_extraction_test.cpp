@@ -13,6 +13,11 @@ using namespace svnet;
 
 namespace {
 
+Features extracted(const Backbone& backbone, const ViewDataset& dataset) {
+  Alone alone;
+  return extract_features(backbone, dataset, {}, {}, alone);
+}
+
 /// The graph's parameters as a legacy Keras file; those of `changed` are `units` NaN.
 void write_legacy(const std::filesystem::path& path, const Graph& graph, const Parameters& parameters,
                   const std::string& changed, Index units) {
@@ -53,7 +58,7 @@ TEST_CASE("a damaged picture of a later batch is named, after the batches before
   const int threads_before = Parallel::shared().threads();
   for (const int threads : {1, 3}) {
     Parallel::shared().resize(threads);
-    CHECK_THROWS_WITH(extract_features(backbone, dataset, {}, {}), Catch::Contains(damaged));
+    CHECK_THROWS_WITH(extracted(backbone, dataset), Catch::Contains(damaged));
   }
   Parallel::shared().resize(threads_before);
 }
@@ -63,9 +68,9 @@ TEST_CASE("features do not depend on the pictures beside them") {
   write_small_dataset(folder.path());
   ViewDataset dataset = read_view_dataset(folder.path());
   const Backbone backbone = random_backbone("tiny_xception", "", 1);
-  const Features together = extract_features(backbone, dataset, {}, {});
+  const Features together = extracted(backbone, dataset);
   dataset.views = {dataset.views[17]};
-  const Features alone = extract_features(backbone, dataset, {}, {});
+  const Features alone = extracted(backbone, dataset);
   REQUIRE(alone.count == 1);
   for (Index i = 0; i < alone.dimension; ++i)
     CHECK(alone.values[static_cast<std::size_t>(i)] ==
