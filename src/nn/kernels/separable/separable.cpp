@@ -16,6 +16,7 @@ namespace HWY_NAMESPACE {
 
 /// Pixels whose sums are kept in registers together: they share the loads of the taps.
 constexpr int kPixels = 4;
+constexpr Index kLanes = kPanel / kVectorsPerPanel;
 /// Channels that are walked together.
 constexpr Index kChannels = 4 * kPanel;
 
@@ -24,30 +25,72 @@ struct Taps {
   Index kh0, kh1, kw0, kw1;
 };
 
-/// kCount neighbouring output pixels, one panel of channels; x at the first pixel's tap (0, 0), which need not exist.
+using PixelSums = PanelVector[kPixels][kVectorsPerPanel];
+
+template <bool kRelu>
+HWY_INLINE PanelVector input_vector(const float* x) {
+  const PanelTag d;
+  const auto value = hn::LoadU(d, x);
+  return kRelu ? hn::Max(hn::Zero(d), value) : value;  // in this order NaN stays NaN
+}
+
+/// Adds the taps of any window to the sums of kCount neighbouring pixels; x at the first pixel's tap (0, 0), which need
+/// not exist.
+template <int kCount, bool kRelu>
+HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, const float* x, PixelSums& sum) {
+  const PanelTag d;
+  const Index step = win.stride_w * win.c, padded = panels(win.c) * kPanel;
+  for (Index kh = t.kh0; kh < t.kh1; ++kh)
+    for (Index kw = t.kw0; kw < t.kw1; ++kw) {
+      const float* from = x + (kh * win.w + kw) * win.c;
+      const float* tap = taps + (kh * win.kw + kw) * padded;
+      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
+        const auto w = hn::Load(d, tap + v * kLanes);
+        unrolled<kCount>([&](auto p) HWY_ATTR {
+          sum[p][v] = hn::MulAdd(input_vector<kRelu>(from + p * step + v * kLanes), w, sum[p][v]);
+        });
+      });
+    }
+}
+
+/// The same for kPixels pixels of a window of width 3 and stride 1: each input is read once for the three pixels that
+/// share it.
+template <bool kRelu>
+HWY_INLINE void add_rows_of_three(const Window& win, const Taps& t, const float* taps, const float* x, PixelSums& sum) {
+  const PanelTag d;
+  const Index padded = panels(win.c) * kPanel;
+  for (Index kh = t.kh0; kh < t.kh1; ++kh) {
+    const float* from = x + kh * win.w * win.c;
+    PanelVector w[3][kVectorsPerPanel];
+    unrolled<3>([&](auto kw) HWY_ATTR {
+      unrolled<kVectorsPerPanel>([&](auto v)
+                                     HWY_ATTR { w[kw][v] = hn::Load(d, taps + (kh * 3 + kw) * padded + v * kLanes); });
+    });
+    unrolled<kPixels + 2>([&](auto j) HWY_ATTR {
+      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
+        const auto value = input_vector<kRelu>(from + j * win.c + v * kLanes);
+        unrolled<3>([&](auto kw) HWY_ATTR {
+          constexpr int p = j - kw;
+          if constexpr (p >= 0 && p < kPixels) sum[p][v] = hn::MulAdd(value, w[kw][v], sum[p][v]);
+        });
+      });
+    });
+  }
+}
+
+/// kCount neighbouring output pixels, one panel of channels.
 template <int kCount, bool kRelu>
 HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
                                  Index c, PanelVector low, PanelVector high, float* y) {
   const PanelTag d;
-  constexpr Index kLanes = kPanel / kVectorsPerPanel;
-  const Index step = win.stride_w * win.c, padded = panels(win.c) * kPanel;
-  PanelVector sum[kCount][kVectorsPerPanel];
+  PixelSums sum;
   unrolled<kCount>([&](auto p) HWY_ATTR {
     unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { sum[p][v] = hn::Load(d, weights.bias.get() + c + v * kLanes); });
   });
-  for (Index kh = t.kh0; kh < t.kh1; ++kh)
-    for (Index kw = t.kw0; kw < t.kw1; ++kw) {
-      const float* from = x + (kh * win.w + kw) * win.c + c;
-      const float* tap = weights.taps.get() + (kh * win.kw + kw) * padded + c;
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-        const auto w = hn::Load(d, tap + v * kLanes);
-        unrolled<kCount>([&](auto p) HWY_ATTR {
-          auto value = hn::LoadU(d, from + p * step + v * kLanes);
-          if constexpr (kRelu) value = hn::Max(hn::Zero(d), value);  // in this order NaN stays NaN
-          sum[p][v] = hn::MulAdd(value, w, sum[p][v]);
-        });
-      });
-    }
+  if (kCount == kPixels && win.kw == 3 && win.stride_w == 1)
+    add_rows_of_three<kRelu>(win, t, weights.taps.get() + c, x + c, sum);
+  else
+    add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
   unrolled<kCount>([&](auto p) HWY_ATTR {
     unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
       auto value = sum[p][v];
@@ -55,6 +98,14 @@ HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const Depthwi
       hn::Store(hn::IfThenElse(hn::Gt(value, high), high, value), d, y + p * kPanel + v * kLanes);
     });
   });
+}
+
+/// The same for the channels [c0, c1); panels of y are `apart` pixels from each other.
+template <int kCount, bool kRelu>
+HWY_INLINE void depthwise_run(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x, Index c0,
+                              Index c1, PanelVector low, PanelVector high, float* y, Index apart) {
+  for (Index c = c0; c < c1; c += kPanel)
+    depthwise_pixels<kCount, kRelu>(win, t, weights, x, c, low, high, y + (c - c0) * apart);
 }
 
 /// Output positions [begin, end) as [C / 16][end - begin][16].
@@ -74,29 +125,30 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
     float* to = y + c0 * (end - begin);
     for (Index position = begin; position < end;) {
       const Index row = position / win.ow, n = row / win.oh, h = row % win.oh * win.stride_h - win.top;
-      Index ow = position % win.ow;
-      const Index stop = HWY_MIN(win.ow, ow + end - position);
-      position += stop - ow;
+      const Index start = position % win.ow, stop = HWY_MIN(win.ow, start + end - position);
+      const Index inside0 = HWY_MAX(start, inner0), inside1 = HWY_MIN(stop, inner1);
       const Taps taps{HWY_MAX(Index{0}, -h), HWY_MIN(win.kh, win.h - h), 0, win.kw};
-      const float* image_row = x + (n * win.h + h) * win.w * win.c;
-      while (ow < stop) {
-        const Index column = ow * win.stride_w - win.left;
-        const float* from = image_row + column * win.c;
-        if (ow >= inner0 && ow + kPixels <= HWY_MIN(stop, inner1)) {
-          for (Index c = c0; c < c1; c += kPanel)
-            depthwise_pixels<kPixels, kRelu>(win, taps, weights, from, c, low, high, to + (c - c0) * (end - begin));
-          ow += kPixels;
-          to += kPixels * kPanel;
+      const float* image_row = x + ((n * win.h + h) * win.w - win.left) * win.c;
+      const Index step = win.stride_w * win.c, apart = end - begin;
+      for (Index ow = start; ow < stop;) {
+        if (ow >= inside0 && ow < inside1 && inside1 - inside0 >= kPixels) {
+          // The last few share a run with some that are done already.
+          const Index first = HWY_MIN(ow, inside1 - kPixels);
+          depthwise_run<kPixels, kRelu>(win, taps, weights, image_row + first * step, c0, c1, low, high,
+                                        to + (first - start) * kPanel, apart);
+          ow = first + kPixels;
           continue;
         }
+        const Index column = ow * win.stride_w - win.left;
         Taps edge = taps;
         edge.kw0 = HWY_MAX(Index{0}, -column);
         edge.kw1 = HWY_MIN(win.kw, win.w - column);
-        for (Index c = c0; c < c1; c += kPanel)
-          depthwise_pixels<1, kRelu>(win, edge, weights, from, c, low, high, to + (c - c0) * (end - begin));
+        depthwise_run<1, kRelu>(win, edge, weights, image_row + ow * step, c0, c1, low, high,
+                                to + (ow - start) * kPanel, apart);
         ++ow;
-        to += kPanel;
       }
+      to += (stop - start) * kPanel;
+      position += stop - start;
     }
   }
 }
