@@ -24,10 +24,19 @@ int run(int argc, char** argv, Team& team) {
   bool resume = false;
   double snapshot_seconds = 10;
   Config config;
-  command.app().add_option("--features", features_file, "Features of every view (svnet-features)")->required();
-  command.app().add_option("--dataset", dataset_folder, "The dataset that the features are of")->required();
-  command.app().add_option("--output", output, "The file to write")->required();
-  command.app().add_option("--exclude", excluded, "Categories that take no part, separated by commas")->delimiter(',');
+  command.app()
+      .add_option("--features", features_file, "Features of every view (svnet-features)")
+      ->required()
+      ->type_name("FILE");
+  command.app()
+      .add_option("--dataset", dataset_folder, "The dataset that the features are of")
+      ->required()
+      ->type_name("DIR");
+  command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
+  command.app()
+      .add_option("--exclude", excluded, "Categories that take no part, separated by commas")
+      ->delimiter(',')
+      ->type_name("NAMES");
   auto* samples =
       command.app()
           .add_option("--min-samples", config.scores.min_samples, "Until every view was in so many problems")
