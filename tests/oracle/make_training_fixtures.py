@@ -178,7 +178,9 @@ folder.mkdir(parents=True, exist_ok=True)
 if "--large" in sys.argv[2:]:
     vgg_like(folder / "vgg_like.safetensors", [32, 64, 64], 128, 10)
     sv_net(folder / "sv_net.safetensors", 512, 256, 10)
-    fine_tuned(folder / "fine_tuned.safetensors", [32, 64, 64], 256, 10)
+    # No larger: Adam's first steps have the size of the rate however small the gradient, so that rounding in gradients near
+    # 0 grows into steps of its own, the more of them there are.
+    fine_tuned(folder / "fine_tuned.safetensors", [16, 16, 16], 16, 4)
 else:
     vgg_like(folder / "vgg_like.safetensors", [4, 8, 8], 16, 4)
     sv_net(folder / "sv_net.safetensors", 32, 16, 4)
