@@ -17,7 +17,7 @@ struct MemoryPlan {
 };
 
 /// Places values so that no two that live at once overlap: largest first, each at the lowest free offset. Offsets and
-/// sizes are multiples of 16 numbers.
+/// sizes are multiples of 16 numbers, and 16 numbers behind each value belong to it.
 MemoryPlan plan_memory(const std::vector<Lifetime>& values);
 
 }  // namespace svnet::runtime
