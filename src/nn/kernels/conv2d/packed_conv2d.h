@@ -6,7 +6,7 @@
 namespace svnet::kernels {
 
 /// y (N, OH, OW, K) = finish(x * weights): the weights are those of (KH · KW · C, K). Windows are gathered block by
-/// block, never whole; a 1×1 window of stride 1 is read in place. `scratch(worker)` must hold packed_conv2d_scratch
+/// block, never whole; a 1×1 window of stride 1 is read in place. scratch holds packed_conv2d_scratch
 /// numbers.
 void packed_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch);

@@ -60,4 +60,9 @@ struct WinogradPlan {
   }
 };
 
+/// The points of tiles [begin, end) among those of the group [first, last), as [c / 16][36][last - first][16]: the
+/// first step of the forward and of the weight gradient, on the calling thread.
+void winograd_input_points(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin, Index end,
+                           float* points);
+
 }  // namespace svnet::kernels

@@ -1,4 +1,5 @@
-// The three transforms of F(4×4, 3×3) for a vector of channels at a time, with the interpolation points 0, ±1, ±2, ∞.
+// The transforms of F(4×4, 3×3) and of its gradients for a vector of channels at a time, with the interpolation points
+// 0, ±1, ±2, ∞.
 #if defined(SVNET_WINOGRAD_TRANSFORMS_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVNET_WINOGRAD_TRANSFORMS_INL_H_
 #undef SVNET_WINOGRAD_TRANSFORMS_INL_H_
@@ -13,6 +14,8 @@ namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
 using V = PanelVector;
+inline constexpr Index kLanes = kPanel / kVectorsPerPanel;
+
 struct Six {
   V v0, v1, v2, v3, v4, v5;
 };
@@ -78,6 +81,17 @@ HWY_INLINE Three tap_row(V u0, V u1, V u2, V u3, V u4, V u5) {
           hn::MulAdd(hn::Set(d, 0.5f), far_difference, near_difference), hn::Add(hn::Sub(far_sum, near_sum), u5)};
 }
 
+/// Column j of 6×6 points, `point` apart in row-major order; `to` at point j.
+HWY_INLINE void store_column(const Six& column, float* to, Index point) {
+  const PanelTag d;
+  hn::Store(column.v0, d, to);
+  hn::Store(column.v1, d, to + 6 * point);
+  hn::Store(column.v2, d, to + 12 * point);
+  hn::Store(column.v3, d, to + 18 * point);
+  hn::Store(column.v4, d, to + 24 * point);
+  hn::Store(column.v5, d, to + 30 * point);
+}
+
 /// One tile's 6×6 inputs (stride `row` between rows, `column` between columns) to 36 points, `point` apart.
 HWY_INLINE void transform_input_vector(const float* x, Index row, Index column, float* to, Index point) {
   const PanelTag d;
@@ -88,14 +102,7 @@ HWY_INLINE void transform_input_vector(const float* x, Index row, Index column, 
                      hn::LoadU(d, from + 3 * column), hn::LoadU(d, from + 4 * column), hn::LoadU(d, from + 5 * column));
   }
   const auto down = [&](int j, V Six::*m) HWY_ATTR {
-    const Six r = input_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m, t[4].*m, t[5].*m);
-    float* p = to + j * point;
-    hn::Store(r.v0, d, p);
-    hn::Store(r.v1, d, p + 6 * point);
-    hn::Store(r.v2, d, p + 12 * point);
-    hn::Store(r.v3, d, p + 18 * point);
-    hn::Store(r.v4, d, p + 24 * point);
-    hn::Store(r.v5, d, p + 30 * point);
+    store_column(input_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m, t[4].*m, t[5].*m), to + j * point, point);
   };
   down(0, &Six::v0), down(1, &Six::v1), down(2, &Six::v2), down(3, &Six::v3), down(4, &Six::v4), down(5, &Six::v5);
 }
@@ -108,33 +115,17 @@ HWY_INLINE void transform_weight_vector(const float* w, Index tap, float* to, In
     const float* from = w + 3 * i * tap;
     t[i] = weight_row(hn::LoadU(d, from), hn::LoadU(d, from + tap), hn::LoadU(d, from + 2 * tap));
   }
-  const auto down = [&](int j, V Six::*m) HWY_ATTR {
-    const Six r = weight_row(t[0].*m, t[1].*m, t[2].*m);
-    float* p = to + j * point;
-    hn::Store(r.v0, d, p);
-    hn::Store(r.v1, d, p + 6 * point);
-    hn::Store(r.v2, d, p + 12 * point);
-    hn::Store(r.v3, d, p + 18 * point);
-    hn::Store(r.v4, d, p + 24 * point);
-    hn::Store(r.v5, d, p + 30 * point);
-  };
+  const auto down = [&](int j, V Six::*m)
+                        HWY_ATTR { store_column(weight_row(t[0].*m, t[1].*m, t[2].*m), to + j * point, point); };
   down(0, &Six::v0), down(1, &Six::v1), down(2, &Six::v2), down(3, &Six::v3), down(4, &Six::v4), down(5, &Six::v5);
 }
 
 /// One tile's 4×4 output gradients, [4][4], to 36 points, `point` apart.
 HWY_INLINE void transform_gradient_vector(const V (&y)[4][4], float* to, Index point) {
-  const PanelTag d;
   Six t[4];
   for (int i = 0; i < 4; ++i) t[i] = gradient_row(y[i][0], y[i][1], y[i][2], y[i][3]);
   const auto down = [&](int j, V Six::*m) HWY_ATTR {
-    const Six r = gradient_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m);
-    float* p = to + j * point;
-    hn::Store(r.v0, d, p);
-    hn::Store(r.v1, d, p + 6 * point);
-    hn::Store(r.v2, d, p + 12 * point);
-    hn::Store(r.v3, d, p + 18 * point);
-    hn::Store(r.v4, d, p + 24 * point);
-    hn::Store(r.v5, d, p + 30 * point);
+    store_column(gradient_row(t[0].*m, t[1].*m, t[2].*m, t[3].*m), to + j * point, point);
   };
   down(0, &Six::v0), down(1, &Six::v1), down(2, &Six::v2), down(3, &Six::v3), down(4, &Six::v4), down(5, &Six::v5);
 }

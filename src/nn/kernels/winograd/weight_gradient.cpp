@@ -8,7 +8,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "nn/kernels/winograd/tiles-inl.h"
+#include "nn/kernels/winograd/plan.h"
+#include "nn/kernels/winograd/transforms-inl.h"
 #include "nn/kernels/winograd/winograd.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -35,11 +36,6 @@ void transform_gradients(const WinogradPlan& plan, const float* dy, Index first,
           plan.input_point(last - first));
     }
   }
-}
-
-void transform_gradient_inputs(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin,
-                               Index end, float* points) {
-  transform_inputs(plan, x, first, last, begin, end, points);
 }
 
 /// sums (kRows, 16) += aᵀ · b: a (tiles, 16) from its first wanted column on, b (tiles, 16).
@@ -104,7 +100,6 @@ HWY_AFTER_NAMESPACE();
 namespace svnet::kernels {
 
 HWY_EXPORT(transform_gradients);
-HWY_EXPORT(transform_gradient_inputs);
 HWY_EXPORT(sum_points);
 HWY_EXPORT(transform_taps);
 
@@ -137,7 +132,7 @@ void winograd_weight_gradient(Parallel& parallel, const Window& w, Index k, cons
   for (Index first = 0; first < plan.tiles(); first += plan.block) {
     const Index last = std::min(first + plan.block, plan.tiles()), count = last - first;
     parallel.for_chunks(count, 4, [&](Index begin, Index end, int) {
-      HWY_DYNAMIC_DISPATCH(transform_gradient_inputs)(plan, x, first, last, first + begin, first + end, x_points);
+      winograd_input_points(plan, x, first, last, first + begin, first + end, x_points);
       HWY_DYNAMIC_DISPATCH(transform_gradients)(plan, dy, first, last, first + begin, first + end, dy_points);
     });
     parallel.for_chunks(k / kPanel, 1, [&](Index panel, Index, int) {

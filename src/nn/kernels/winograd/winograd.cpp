@@ -13,15 +13,46 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "nn/kernels/winograd/tiles-inl.h"
+#include "nn/kernels/winograd/plan.h"
+#include "nn/kernels/winograd/transforms-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
-void transform_tiles(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin, Index end,
-                     float* points) {
-  transform_inputs(plan, x, first, last, begin, end, points);
+/// The points of tiles [begin, end) among those of the group [first, last): [c / 16][36][last - first][16].
+void transform_inputs(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin, Index end,
+                      float* points) {
+  const Window& w = plan.window;
+  const Index groups = w.c / kPanel, image = w.w * w.c;
+  alignas(kAlignment) float border[36 * kPanel];
+  for (Index tile = begin; tile < end; ++tile) {
+    const WinogradTile t = plan.tile(tile);
+    const Index row = 4 * t.row - w.top, column = 4 * t.column - w.left;
+    const float* from = x + ((t.image * w.h + row) * w.w + column) * w.c;
+    const bool inside = row >= 0 && column >= 0 && row + 6 <= w.h && column + 6 <= w.w;
+    for (Index g = 0; g < groups; ++g) {
+      float* to = points + g * plan.input_group(last - first) + (tile - first) * kPanel;
+      const float* source = from + g * kPanel;
+      Index source_row = image, source_column = w.c;
+      if (!inside) {
+        for (Index i = 0; i < 6; ++i)
+          for (Index j = 0; j < 6; ++j) {
+            const bool in_image = row + i >= 0 && row + i < w.h && column + j >= 0 && column + j < w.w;
+            float* pixel = border + (i * 6 + j) * kPanel;
+            if (in_image)
+              std::memcpy(pixel, source + i * image + j * w.c, kPanel * sizeof(float));
+            else
+              std::memset(pixel, 0, kPanel * sizeof(float));
+          }
+        source = border;
+        source_row = 6 * kPanel;
+        source_column = kPanel;
+      }
+      for (Index v = 0; v < kPanel; v += kLanes)
+        transform_input_vector(source + v, source_row, source_column, to + v, plan.input_point(last - first));
+    }
+  }
 }
 
 /// The weights of input channels [begin, end) of one panel of taps as points [36][end - begin][16].
@@ -90,10 +121,15 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace svnet::kernels {
 
-HWY_EXPORT(transform_tiles);
+HWY_EXPORT(transform_inputs);
 HWY_EXPORT(transform_weights);
 HWY_EXPORT(multiply_points);
 HWY_EXPORT(transform_outputs);
+
+void winograd_input_points(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin, Index end,
+                           float* points) {
+  HWY_DYNAMIC_DISPATCH(transform_inputs)(plan, x, first, last, begin, end, points);
+}
 
 bool winograd_fits(const Window& w, Index k) {
   return w.kh == 3 && w.kw == 3 && w.stride_h == 1 && w.stride_w == 1 && w.c % kPanel == 0 && k % kPanel == 0;
@@ -130,7 +166,7 @@ void by_tiles(Parallel& parallel, const WinogradPlan& plan, const float* x, cons
   parallel.for_chunks(plan.tiles(), plan.block, [&](Index first, Index last, int worker) {
     float* points = scratch + worker * plan.worker_scratch();
     float* products = points + plan.input_size(plan.block);
-    HWY_DYNAMIC_DISPATCH(transform_tiles)(plan, x, first, last, first, last, points);
+    winograd_input_points(plan, x, first, last, first, last, points);
     for (Index panel = 0; panel < plan.k / kPanel; ++panel) {
       HWY_DYNAMIC_DISPATCH(multiply_points)
       (plan, last - first, points, 0, weights.c, weights.panels.get() + panel * 36 * weights.c * kPanel,
@@ -148,7 +184,7 @@ void by_channels(Parallel& parallel, const WinogradPlan& plan, const float* x, c
   for (Index first = 0; first < plan.tiles(); first += plan.block) {
     const Index last = std::min(first + plan.block, plan.tiles());
     parallel.for_chunks(last - first, 4, [&](Index begin, Index end, int) {
-      HWY_DYNAMIC_DISPATCH(transform_tiles)(plan, x, first, last, first + begin, first + end, points);
+      winograd_input_points(plan, x, first, last, first + begin, first + end, points);
     });
     parallel.for_chunks(plan.k / kPanel, 1, [&](Index panel, Index, int worker) {
       float* transformed = scratch + worker * plan.worker_scratch();
