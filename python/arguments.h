@@ -10,8 +10,8 @@
 
 #include "base/index.h"
 #include "models/image/image.h"
-#include "view/pose.h"
 #include "semantics/distances.h"
+#include "view/pose.h"
 
 // From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.
 // All of these need the GIL.

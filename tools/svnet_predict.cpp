@@ -6,8 +6,8 @@
 #include "io/image_file.h"
 #include "io/pose_list_file.h"
 #include "predict/half_sphere_plot.h"
-#include "view/pose_grid.h"
 #include "predict/predictor.h"
+#include "view/pose_grid.h"
 
 namespace {
 

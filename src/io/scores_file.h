@@ -28,7 +28,7 @@ struct Scores : ScoresOrigin {
   std::vector<double> standard_error;  // of `individual`
   std::vector<double> rank_stability;  // of the view's pose: Kendall's tau of its views' order between half the
                                        // problems and the other half, [-1, 1]
-  std::vector<std::string> paths;  // as the dataset names its images
+  std::vector<std::string> paths;      // as the dataset names its images
 };
 
 // HDF5. Datasets: `individual`, `global`, `scaled`, `standard_error`, `rank_stability` (N) float64, `count` (N) uint64,

@@ -5,11 +5,11 @@
 #include <thread>
 
 #include "base/version.h"
-#include "view/pose_grid.h"
 #include "predict/predictor.h"
 #include "small_model.h"
 #include "svnet/svnet.h"
 #include "temporary_folder.h"
+#include "view/pose_grid.h"
 
 using namespace svnet;
 

@@ -12,9 +12,9 @@
 #include "io/keras_graph.h"
 #include "io/view_dataset.h"
 #include "shared_folder.h"
-#include "view/pose_grid.h"
 #include "small_model.h"
 #include "temporary_folder.h"
+#include "view/pose_grid.h"
 
 using namespace svnet;
 namespace fs = std::filesystem;

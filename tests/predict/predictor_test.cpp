@@ -6,9 +6,9 @@
 #include <thread>
 
 #include "nn/graph/run.h"
-#include "view/pose_grid.h"
 #include "small_model.h"
 #include "temporary_folder.h"
+#include "view/pose_grid.h"
 
 using namespace svnet;
 

@@ -7,10 +7,10 @@
 
 #include "io/image_file.h"
 #include "predict/half_sphere_plot.h"
-#include "view/pose_grid.h"
 #include "predict/predictor.h"
 #include "small_model.h"
 #include "temporary_folder.h"
+#include "view/pose_grid.h"
 
 using namespace svnet;
 
