@@ -22,18 +22,24 @@ inline void advise_huge_pages(void* memory, std::size_t bytes) {
   ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // a wish: refusal changes nothing
 }
 
+/// Memory that starts on a 64-byte border, with room for one more vector behind it, large memory on huge pages where
+/// the system has them; nullptr where there is none. Freed by std::free. Not initialised.
+inline void* aligned_memory(std::size_t bytes) {
+  const std::size_t rounded = (bytes / kAlignment + 2) * kAlignment;
+  void* memory = std::aligned_alloc(kAlignment, rounded);
+  if (memory != nullptr) advise_huge_pages(memory, rounded);
+  return memory;
+}
+
 struct FreeAligned {
-  void operator()(float* p) const { std::free(p); }
+  void operator()(void* p) const { std::free(p); }
 };
 using AlignedFloats = std::unique_ptr<float[], FreeAligned>;
 
-/// Memory for `count` numbers, aligned to 64 bytes, with room for one more vector, so that a kernel may read past the
-/// end. Not initialised.
+/// Memory for `count` numbers, so that a kernel may read one vector past the end. Not initialised.
 inline AlignedFloats aligned_floats(Index count) {
-  const std::size_t bytes = (static_cast<std::size_t>(count) * sizeof(float) / kAlignment + 2) * kAlignment;
-  auto* p = static_cast<float*>(std::aligned_alloc(kAlignment, bytes));
+  auto* p = static_cast<float*>(aligned_memory(static_cast<std::size_t>(count) * sizeof(float)));
   if (p == nullptr) throw std::bad_alloc();
-  advise_huge_pages(p, bytes);
   return AlignedFloats(p);
 }
 
