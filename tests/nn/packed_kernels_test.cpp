@@ -124,7 +124,9 @@ TEST_CASE("direct and Winograd convolutions agree with the definition") {
     for (const Window& w :
          {window(2, 9, 7, 3, 3, 1, Padding::same()), window(1, 11, 10, 5, 3, 2, Padding::valid()),
           window(1, 8, 9, 16, 5, 3, Padding::of(2, 1, 0, 3)), window(2, 6, 5, 16, 1, 2, Padding::same()),
-          window(1, 13, 10, 16, 3, 1, Padding::same()), window(2, 4, 9, 48, 3, 1, Padding::valid())})
+          window(1, 13, 10, 16, 3, 1, Padding::same()), window(2, 4, 9, 48, 3, 1, Padding::valid()),
+          window(2, 6, 50, 3, 3, 1, Padding::same()), window(1, 7, 101, 3, 3, 2, Padding::of(0, 1, 0, 1)),
+          window(1, 5, 120, 20, 1, 2, Padding::same()), window(1, 2, 49, 2, 5, 1, Padding::of(2, 2, 2, 2))})
       for (Index k : {16, 20}) {
         INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", window " << w.kh << ", stride "
                  << w.stride_h << ", " << k << " filters");

@@ -39,6 +39,52 @@ void gather(const Window& w, const float* x, Index begin, Index end, float* to) 
   }
 }
 
+/// What a convolution works on.
+struct Job {
+  const Window& w;
+  const float* x;
+  const PackedWeights& weights;
+  const PackedFinish& finish;
+  float* y;
+
+  /// The output positions from `begin` on; a holds their windows.
+  void multiply(Index begin, Index rows, const PanelRows& a) const {
+    PackedFinish here = finish;
+    if (here.residual != nullptr) here.residual += begin * weights.n;
+    packed_multiply(rows, a, weights, 0, panels(weights.n), here, y + begin * weights.n);
+  }
+
+  void multiply_gathered(Index begin, Index end, float* windows) const {
+    const Index block = packed_block_rows(w.positions(), depth(w));
+    for (; begin < end; begin += block) {
+      const Index rows = std::min(block, end - begin);
+      gather(w, x, begin, begin + rows, windows);
+      multiply(begin, rows, {windows, row_stride(w), kPanel});
+    }
+  }
+};
+
+/// Whether rows of output are long enough to serve as the rows of a product each, their windows read where they lie.
+bool multiplies_by_rows(const Window& w) { return w.ow >= 48 && depth(w) <= kPackedDepth; }
+
+/// One output row. Windows that reach out of the image are gathered.
+void multiply_row(const Job& job, Index row, float* windows) {
+  const Window& w = job.w;
+  const Index n = row / w.oh, top = row % w.oh * w.stride_h - w.top;
+  Index inner0 = 0, inner1 = 0;
+  if (top >= 0 && top + w.kh <= w.h && w.w + w.left >= w.kw) {
+    inner0 = std::min(w.ow, (w.left + w.stride_w - 1) / w.stride_w);
+    inner1 = std::clamp((w.w + w.left - w.kw) / w.stride_w + 1, inner0, w.ow);
+  }
+  const Index begin = row * w.ow;
+  job.multiply_gathered(begin, begin + inner0, windows);
+  if (inner1 > inner0) {
+    const float* first = job.x + ((n * w.h + top) * w.w + inner0 * w.stride_w - w.left) * w.c;
+    job.multiply(begin + inner0, inner1 - inner0, {first, w.stride_w * w.c, w.w * w.c, w.kw * w.c});
+  }
+  job.multiply_gathered(begin + inner1, begin + w.ow, windows);
+}
+
 }  // namespace
 
 Index packed_conv2d_scratch(const Window& window, int threads) {
@@ -48,15 +94,17 @@ Index packed_conv2d_scratch(const Window& window, int threads) {
 void packed_conv2d(Parallel& parallel, const Window& w, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch) {
   if (w.reads_in_place()) return packed_gemm(parallel, w.positions(), x, weights, finish, y);
-  const Index block = packed_block_rows(w.positions(), depth(w));
-  parallel.for_chunks(w.positions(), block, [&](Index begin, Index end, int worker) {
-    float* windows = scratch + worker * scratch_per_worker(w);
-    gather(w, x, begin, end, windows);
-    PackedFinish here = finish;
-    if (here.residual != nullptr) here.residual += begin * weights.n;
-    packed_multiply(end - begin, {windows, row_stride(w), kPanel}, weights, 0, panels(weights.n), here,
-                    y + begin * weights.n);
-  });
+  const Job job{w, x, weights, finish, y};
+  const auto windows = [&](int worker) { return scratch + worker * scratch_per_worker(w); };
+  if (multiplies_by_rows(w)) {
+    parallel.for_chunks(w.n * w.oh, std::max<Index>(1, 256 / w.ow), [&](Index begin, Index end, int worker) {
+      for (Index row = begin; row < end; ++row) multiply_row(job, row, windows(worker));
+    });
+  } else {
+    parallel.for_chunks(
+        w.positions(), packed_block_rows(w.positions(), depth(w)),
+        [&](Index begin, Index end, int worker) { job.multiply_gathered(begin, end, windows(worker)); });
+  }
 }
 
 }  // namespace svnet::kernels

@@ -5,9 +5,9 @@
 
 namespace svnet::kernels {
 
-/// y (N, OH, OW, K) = finish(x * weights): the weights are those of (KH · KW · C, K). Windows are gathered block by
-/// block, never whole; a 1×1 window of stride 1 is read in place. scratch holds packed_conv2d_scratch
-/// numbers.
+/// y (N, OH, OW, K) = finish(x * weights): the weights are those of (KH · KW · C, K). Windows are read where they lie
+/// if rows of output are long, as in first layers, or they are 1×1 of stride 1; otherwise they are gathered block by
+/// block, never whole. scratch holds packed_conv2d_scratch numbers.
 void packed_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch);
 /// Numbers of scratch memory for `threads` threads; 0 where none is needed.

@@ -14,20 +14,17 @@ HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
-/// Products summed before the sums go to memory: longer runs would push a panel out of L2.
-constexpr Index kRun = 2048;
-
 /// One panel that is whole, or whose columns end inside it: then tile by tile over a scratch tile.
 void multiply_one_panel(Index rows, const PanelRows& a, const PackedWeights& weights, Index p,
                         const PackedFinish& finish, float low, float high, float* c) {
   const Index n = weights.n, columns = HWY_MIN(kPanel, n - p * kPanel);
   TileFinish tile_finish{weights.bias.get() + p * kPanel,
                          finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
-  for (Index begin = 0; begin < weights.k; begin += kRun) {
-    const Index run = HWY_MIN(kRun, weights.k - begin);
+  for (Index begin = 0; begin < weights.k; begin += kPackedDepth) {
+    const Index run = HWY_MIN(kPackedDepth, weights.k - begin);
     const bool is_last = begin + run == weights.k;
     PanelRows part = a;
-    part.data += begin / kPanel * a.block_stride;
+    part.data += begin / a.run * a.block_stride;
     const float* panel = weights.panel(p) + begin * kPanel;
     if (columns == kPanel) {
       multiply_panel(rows, part, run, panel, {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr});

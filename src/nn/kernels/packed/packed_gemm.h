@@ -11,9 +11,12 @@ struct PackedFinish {
   const float* residual = nullptr;  ///< (rows, n), or nullptr
 };
 
+/// Products summed before the sums go to memory: longer runs would push a panel out of L2.
+inline constexpr Index kPackedDepth = 2048;
+
 /// c (rows, n) = finish(a · weights + bias) for the panels [first, last), on the calling thread. c points at row 0,
-/// column 0, rows are n apart. A row's result does not depend on the rows beside it. a and the residual must allow
-/// reading one vector past their end.
+/// column 0, rows are n apart. A row's result does not depend on the rows beside it. The residual must allow reading
+/// one vector past its end. k is at most kPackedDepth, or a.run divides that.
 void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
                      const PackedFinish& finish, float* c);
 

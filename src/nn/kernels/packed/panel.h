@@ -10,10 +10,11 @@ inline constexpr Index kPanel = 16;
 inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
 
 /// The left operand of a product with a panel: number (row, k) lies at
-/// data[k / 16 · block_stride + row · row_stride + k % 16]. Plain rows have block_stride 16.
+/// data[k / run · block_stride + row · row_stride + k % run]. Plain rows have block_stride = run.
 struct PanelRows {
   const float* data;
   Index row_stride, block_stride;
+  Index run = kPanel;
 };
 
 /// What is done to the sums of a tile before they are stored: y = clamp(y + bias + residual, low, high); NaN stays NaN.
