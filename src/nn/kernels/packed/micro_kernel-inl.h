@@ -44,6 +44,17 @@ HWY_INLINE void unrolled(Body&& body) {
   unrolled(body, std::make_integer_sequence<int, kCount>{});
 }
 
+/// y between the bounds; NaN stays NaN.
+template <class V>
+HWY_INLINE V clamped(V y, V low, V high) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Min(high, hn::Max(low, y));  // of two numbers, one a NaN, these instructions give the second
+#else
+  y = hn::IfThenElse(hn::Lt(y, low), low, y);
+  return hn::IfThenElse(hn::Gt(y, high), high, y);
+#endif
+}
+
 /// sum (kRows, 16) += a (kRows, k) · panel (k, 16), in order of k: a row's sums do not depend on its neighbours.
 template <int kRows>
 HWY_INLINE void multiply_run(Index k, const float* HWY_RESTRICT a, Index row_stride, const float* HWY_RESTRICT panel,
@@ -71,13 +82,13 @@ HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel,
       sum[r][v] = out.accumulate ? hn::LoadU(d, out.c + r * out.stride + v * kLanes) : hn::Zero(d);
     });
   });
-  if (a.block_stride == kPanel) {
+  if (a.block_stride == a.run) {
     multiply_run<kRows>(k, a.data, a.row_stride, panel, sum);
   } else {
     const float* block = a.data;
     Index rest = k;
-    for (; rest >= kPanel; rest -= kPanel, block += a.block_stride, panel += kPanel * kPanel)
-      multiply_run<kRows>(kPanel, block, a.row_stride, panel, sum);
+    for (; rest >= a.run; rest -= a.run, block += a.block_stride, panel += a.run * kPanel)
+      multiply_run<kRows>(a.run, block, a.row_stride, panel, sum);
     multiply_run<kRows>(rest, block, a.row_stride, panel, sum);
   }
   if (out.finish != nullptr) {
@@ -88,9 +99,7 @@ HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel,
         auto y = hn::Add(sum[r][v], hn::LoadU(d, finish.bias + v * kLanes));
         if (finish.residual != nullptr)
           y = hn::Add(y, hn::LoadU(d, finish.residual + r * finish.residual_stride + v * kLanes));
-        // Comparisons rather than Min and Max, which treat NaN differently on each instruction set: NaN stays NaN.
-        y = hn::IfThenElse(hn::Lt(y, low), low, y);
-        sum[r][v] = hn::IfThenElse(hn::Gt(y, high), high, y);
+        sum[r][v] = clamped(y, low, high);
       });
     });
   }

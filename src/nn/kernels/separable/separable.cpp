@@ -53,33 +53,40 @@ HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, co
     }
 }
 
-/// The same for kPixels pixels of a window of width 3 and stride 1: each input is read once for the three pixels that
-/// share it.
-template <bool kRelu>
+/// Where a run of kPixels windows of width 3 and stride 1 lies in its row of the image: windows at the row's ends reach
+/// one column out of it.
+enum Edges { kInner = 0, kLeftmost = 1, kRightmost = 2 };
+
+/// The same for such a run: each input is read once for the three pixels that share it.
+template <bool kRelu, int kEdges>
 HWY_INLINE void add_rows_of_three(const Window& win, const Taps& t, const float* taps, const float* x, PixelSums& sum) {
   const PanelTag d;
   const Index padded = panels(win.c) * kPanel;
-  for (Index kh = t.kh0; kh < t.kh1; ++kh) {
-    const float* from = x + kh * win.w * win.c;
+  const float* from = x + t.kh0 * win.w * win.c;
+  const float* tap = taps + t.kh0 * 3 * padded;
+  for (Index kh = t.kh0; kh < t.kh1; ++kh, from += win.w * win.c, tap += 3 * padded) {
     PanelVector w[3][kVectorsPerPanel];
     unrolled<3>([&](auto kw) HWY_ATTR {
-      unrolled<kVectorsPerPanel>([&](auto v)
-                                     HWY_ATTR { w[kw][v] = hn::Load(d, taps + (kh * 3 + kw) * padded + v * kLanes); });
+      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { w[kw][v] = hn::Load(d, tap + kw * padded + v * kLanes); });
     });
     unrolled<kPixels + 2>([&](auto j) HWY_ATTR {
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-        const auto value = input_vector<kRelu>(from + j * win.c + v * kLanes);
-        unrolled<3>([&](auto kw) HWY_ATTR {
-          constexpr int p = j - kw;
-          if constexpr (p >= 0 && p < kPixels) sum[p][v] = hn::MulAdd(value, w[kw][v], sum[p][v]);
+      if constexpr (!((kEdges & kLeftmost) != 0 && j == 0) && !((kEdges & kRightmost) != 0 && j == kPixels + 1))
+        unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
+          const auto value = input_vector<kRelu>(from + j * win.c + v * kLanes);
+          unrolled<3>([&](auto kw) HWY_ATTR {
+            constexpr int p = j - kw;
+            if constexpr (p >= 0 && p < kPixels) sum[p][v] = hn::MulAdd(value, w[kw][v], sum[p][v]);
+          });
         });
-      });
     });
   }
 }
 
+/// A window row as one of four kinds: any window, or a run for add_rows_of_three.
+constexpr int kAnyWindow = -1;
+
 /// kCount neighbouring output pixels, one panel of channels.
-template <int kCount, bool kRelu>
+template <int kCount, bool kRelu, int kEdges>
 HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
                                  Index c, PanelVector low, PanelVector high, float* y) {
   const PanelTag d;
@@ -87,38 +94,50 @@ HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const Depthwi
   unrolled<kCount>([&](auto p) HWY_ATTR {
     unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { sum[p][v] = hn::Load(d, weights.bias.get() + c + v * kLanes); });
   });
-  if (kCount == kPixels && win.kw == 3 && win.stride_w == 1)
-    add_rows_of_three<kRelu>(win, t, weights.taps.get() + c, x + c, sum);
-  else
+  if constexpr (kEdges == kAnyWindow)
     add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
+  else
+    add_rows_of_three<kRelu, kEdges>(win, t, weights.taps.get() + c, x + c, sum);
   unrolled<kCount>([&](auto p) HWY_ATTR {
-    unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-      auto value = sum[p][v];
-      value = hn::IfThenElse(hn::Lt(value, low), low, value);
-      hn::Store(hn::IfThenElse(hn::Gt(value, high), high, value), d, y + p * kPanel + v * kLanes);
-    });
+    unrolled<kVectorsPerPanel>(
+        [&](auto v) HWY_ATTR { hn::Store(clamped(sum[p][v], low, high), d, y + p * kPanel + v * kLanes); });
   });
 }
 
-/// The same for the channels [c0, c1); panels of y are `apart` pixels from each other.
-template <int kCount, bool kRelu>
-HWY_INLINE void depthwise_run(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x, Index c0,
-                              Index c1, PanelVector low, PanelVector high, float* y, Index apart) {
-  for (Index c = c0; c < c1; c += kPanel)
-    depthwise_pixels<kCount, kRelu>(win, t, weights, x, c, low, high, y + (c - c0) * apart);
+/// Where the channels [c0, c1) of a run of pixels come from and go to: x at the first pixel's tap (0, 0), panels of y
+/// `apart` pixels from each other.
+struct Run {
+  const float* x;
+  Index c0, c1;
+  float* y;
+  Index apart;
+};
+
+template <int kCount, bool kRelu, int kEdges = kAnyWindow>
+HWY_NOINLINE void depthwise_run(const Window& win, const Taps& t, const DepthwiseTaps& weights, const Run& run) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  const PanelTag d;
+  const auto low = hn::Set(d, weights.clamp == Clamp::none ? -kInfinity : 0.0f);
+  const auto high = hn::Set(d, weights.clamp == Clamp::relu6 ? 6.0f : kInfinity);
+  for (Index c = run.c0; c < run.c1; c += kPanel)
+    depthwise_pixels<kCount, kRelu, kEdges>(win, t, weights, run.x, c, low, high, run.y + (c - run.c0) * run.apart);
 }
+
+/// By Edges.
+template <bool kRelu>
+constexpr decltype(&depthwise_run<kPixels, kRelu>) kRunsOfThree[] = {
+    &depthwise_run<kPixels, kRelu, kInner>, &depthwise_run<kPixels, kRelu, kLeftmost>,
+    &depthwise_run<kPixels, kRelu, kRightmost>, &depthwise_run<kPixels, kRelu, kLeftmost | kRightmost>};
 
 /// Output positions [begin, end) as [C / 16][end - begin][16].
 template <bool kRelu>
 HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
                                 float* y) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const PanelTag d;
-  const auto low = hn::Set(d, weights.clamp == Clamp::none ? -kInfinity : 0.0f);
-  const auto high = hn::Set(d, weights.clamp == Clamp::relu6 ? 6.0f : kInfinity);
   // Output columns whose windows lie wholly inside the image are [inner0, inner1).
   const Index inner0 = (win.left + win.stride_w - 1) / win.stride_w;
   const Index inner1 = win.w + win.left >= win.kw ? (win.w + win.left - win.kw) / win.stride_w + 1 : 0;
+  // Then add_rows_of_three serves every column of a row.
+  const bool threes = win.kw == 3 && win.stride_w == 1 && inner0 <= 1 && inner1 >= win.ow - 1;
   // A few panels of channels together: each pixel is then some lines in a row, which the hardware fetches ahead.
   for (Index c0 = 0; c0 < win.c; c0 += kChannels) {
     const Index c1 = HWY_MIN(c0 + kChannels, win.c);
@@ -126,7 +145,7 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
     for (Index position = begin; position < end;) {
       const Index row = position / win.ow, n = row / win.oh, h = row % win.oh * win.stride_h - win.top;
       const Index start = position % win.ow, stop = HWY_MIN(win.ow, start + end - position);
-      const Index inside0 = HWY_MAX(start, inner0), inside1 = HWY_MIN(stop, inner1);
+      const Index inside0 = threes ? start : HWY_MAX(start, inner0), inside1 = threes ? stop : HWY_MIN(stop, inner1);
       const Taps taps{HWY_MAX(Index{0}, -h), HWY_MIN(win.kh, win.h - h), 0, win.kw};
       const float* image_row = x + ((n * win.h + h) * win.w - win.left) * win.c;
       const Index step = win.stride_w * win.c, apart = end - begin;
@@ -134,8 +153,12 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
         if (ow >= inside0 && ow < inside1 && inside1 - inside0 >= kPixels) {
           // The last few share a run with some that are done already.
           const Index first = HWY_MIN(ow, inside1 - kPixels);
-          depthwise_run<kPixels, kRelu>(win, taps, weights, image_row + first * step, c0, c1, low, high,
-                                        to + (first - start) * kPanel, apart);
+          const Run run{image_row + first * step, c0, c1, to + (first - start) * kPanel, apart};
+          if (threes)
+            kRunsOfThree<kRelu>[(first < inner0 ? kLeftmost : kInner) +
+                                (first + kPixels > inner1 ? kRightmost : kInner)](win, taps, weights, run);
+          else
+            depthwise_run<kPixels, kRelu>(win, taps, weights, run);
           ow = first + kPixels;
           continue;
         }
@@ -143,8 +166,7 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
         Taps edge = taps;
         edge.kw0 = HWY_MAX(Index{0}, -column);
         edge.kw1 = HWY_MIN(win.kw, win.w - column);
-        depthwise_run<1, kRelu>(win, edge, weights, image_row + ow * step, c0, c1, low, high,
-                                to + (ow - start) * kPanel, apart);
+        depthwise_run<1, kRelu>(win, edge, weights, {image_row + ow * step, c0, c1, to + (ow - start) * kPanel, apart});
         ++ow;
       }
       to += (stop - start) * kPanel;
