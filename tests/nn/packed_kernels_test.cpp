@@ -86,6 +86,32 @@ TEST_CASE("packed gemm multiplies, adds bias and residual, and clamps") {
   });
 }
 
+TEST_CASE("NaN passes through the clamps of packed and separable kernels, on every instruction set") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    INFO(isa);
+    const Window w = window(1, 5, 9, 16, 3, 1, Padding::same());
+    const Index pixel = 2 * 9 + 4;
+    Numbers x(1, w.positions() * w.c), pointwise(2, w.c * 20), taps(3, 9 * w.c), bias(4, 20);
+    x.memory[pixel * w.c + 7] = NAN;
+    const PackedWeights packed = packed_weights(w.c, 20, pointwise.get(), bias.get());
+    for (Clamp clamp : {Clamp::none, Clamp::relu, Clamp::relu6}) {
+      const AlignedFloats y = scratch_memory(w.positions() * 20);
+      packed_gemm(parallel, w.positions(), x.get(), packed, {clamp}, y.get());
+      for (Index p = 0; p < w.positions(); ++p) CHECK(std::isnan(y[p * 20 + 19]) == (p == pixel));
+      DepthwiseTaps depthwise = depthwise_taps(3, 3, w.c, taps.get(), nullptr);
+      depthwise.clamp = clamp;
+      depthwise.relu_input = true;
+      const AlignedFloats scratch = scratch_memory(separable_scratch(w, parallel.threads()));
+      separable_conv2d(parallel, w, x.get(), depthwise, packed, {clamp}, y.get(), scratch.get());
+      for (Index p = 0; p < w.positions(); ++p) {
+        const bool near = std::abs(p / 9 - 2) <= 1 && std::abs(p % 9 - 4) <= 1;
+        CHECK(std::isnan(y[p * 20]) == near);
+      }
+    }
+  });
+}
+
 TEST_CASE("streamed gemm multiplies few rows by a large matrix") {
   Parallel parallel(2);
   for_instruction_sets([&](const std::string& isa) {

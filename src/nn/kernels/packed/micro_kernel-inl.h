@@ -44,13 +44,23 @@ HWY_INLINE void unrolled(Body&& body) {
   unrolled(body, std::make_integer_sequence<int, kCount>{});
 }
 
+/// The greater of both; a NaN in y stays.
+template <class V>
+HWY_INLINE V at_least(V low, V y) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Max(low, y);  // of two numbers, one a NaN, the instruction gives the second
+#else
+  return hn::IfThenElse(hn::Lt(y, low), low, y);
+#endif
+}
+
 /// y between the bounds; NaN stays NaN.
 template <class V>
 HWY_INLINE V clamped(V y, V low, V high) {
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-  return hn::Min(high, hn::Max(low, y));  // of two numbers, one a NaN, these instructions give the second
+  return hn::Min(high, at_least(low, y));
 #else
-  y = hn::IfThenElse(hn::Lt(y, low), low, y);
+  y = at_least(low, y);
   return hn::IfThenElse(hn::Gt(y, high), high, y);
 #endif
 }

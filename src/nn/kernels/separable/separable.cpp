@@ -31,7 +31,7 @@ template <bool kRelu>
 HWY_INLINE PanelVector input_vector(const float* x) {
   const PanelTag d;
   const auto value = hn::LoadU(d, x);
-  return kRelu ? hn::Max(hn::Zero(d), value) : value;  // in this order NaN stays NaN
+  return kRelu ? at_least(hn::Zero(d), value) : value;
 }
 
 /// Adds the taps of any window to the sums of kCount neighbouring pixels; x at the first pixel's tap (0, 0), which need
