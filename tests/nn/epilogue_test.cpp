@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "nn/autograd.h"
 #include "nn/instruction_sets.h"
+#include "nn/kernels/depthwise/depthwise.h"
 #include "nn/numbers.h"
 #include "nn/ops/activations.h"
 #include "nn/ops/conv2d.h"
@@ -71,40 +71,19 @@ TEST_CASE("NaN passes through epilogues at every column, on every instruction se
   });
 }
 
-TEST_CASE("convolutions with an epilogue give the bits of the operations one after the other") {
-  const ops::ConvOptions same{.padding = Padding::same()};
-  for (DType dtype : {DType::f32, DType::f64})
-    for (Clamp clamp : kClamps)
-      for (bool with_bias : {false, true})
-        for (Index kernel : {1, 3}) {
-          INFO(name_of(dtype) << ", clamp " << static_cast<int>(clamp) << ", bias " << with_bias << ", kernel "
-                              << kernel);
-          const auto finished = [&](const Tensor& y, const Tensor& bias) {
-            return clamped(with_bias ? ops::bias_add(y, bias) : y, clamp);
-          };
-          // 25 x 27 images make more than one tile of rows, 7 x 5 ones in place one of rows and two of columns.
-          for (const Shape& image : {Shape{1, 25, 27, 5}, Shape{1, 7, 5, 5}}) {
-            const Tensor x = random_tensor(image, 1, dtype, -5, 5);
-            const Tensor w = random_tensor({kernel, kernel, 5, 70}, 2, dtype), bias = random_tensor({70}, 3, dtype);
-            const ops::ConvEpilogue epilogue{.bias = with_bias ? bias : Tensor{}, .clamp = clamp};
-            CHECK(same_bits(ops::conv2d_inference(x, w, same, epilogue), finished(ops::conv2d(x, w, same), bias)));
-          }
-          for (Index multiplier : {1, 2}) {
-            const Tensor x = random_tensor({2, 9, 7, 37}, 4, dtype, -5, 5);
-            const Tensor w = random_tensor({kernel, kernel, 37, multiplier}, 5, dtype);
-            const Tensor bias = random_tensor({37 * multiplier}, 6, dtype);
-            const ops::ConvEpilogue epilogue{.bias = with_bias ? bias : Tensor{}, .clamp = clamp};
-            CHECK(same_bits(ops::depthwise_conv2d_inference(x, w, same, epilogue),
-                            finished(ops::depthwise_conv2d(x, w, same), bias)));
-          }
-        }
-}
-
-TEST_CASE("a bias that does not fit a convolution is refused, and nothing is recorded") {
-  const Tensor x = Tensor::zeros({1, 5, 5, 2}), w = Tensor::zeros({3, 3, 2, 4}).as_parameter();
-  CHECK_THROWS_WITH(ops::conv2d_inference(x, w, {}, {.bias = Tensor::zeros({3})}),
-                    "[conv2d] output has 4 channels, bias has 3");
-  CHECK_THROWS_WITH(ops::depthwise_conv2d_inference(x, w, {}, {.bias = Tensor::zeros({4})}),
-                    "[depthwise_conv2d] output has 8 channels, bias has 4");
-  CHECK_FALSE(ops::conv2d_inference(x, w, {}, {}).wants_gradient());
+TEST_CASE("a depthwise convolution with an epilogue gives the bits of the operations one after the other") {
+  for (Clamp clamp : kClamps)
+    for (bool with_bias : {false, true})
+      for (Index multiplier : {1, 2}) {
+        INFO("clamp " << static_cast<int>(clamp) << ", bias " << with_bias << ", multiplier " << multiplier);
+        const Tensor x = random_tensor({2, 9, 7, 37}, 4, DType::f32, -5, 5);
+        const Tensor w = random_tensor({3, 3, 37, multiplier}, 5, DType::f32);
+        const Tensor bias = random_tensor({37 * multiplier}, 6, DType::f32);
+        const Window window = window_over("test", 2, 9, 7, 37, {.kh = 3, .kw = 3, .padding = Padding::same()});
+        Tensor y = Tensor::empty({2, 9, 7, 37 * multiplier});
+        kernels::depthwise(Parallel::shared(), {window, multiplier}, x.data<float>(), w.data<float>(), y.data<float>(),
+                           Epilogue<float>{with_bias ? bias.data<float>() : nullptr, clamp});
+        const Tensor plain = ops::depthwise_conv2d(x, w, {.padding = Padding::same()});
+        CHECK(same_bits(y, clamped(with_bias ? ops::bias_add(plain, bias) : plain, clamp)));
+      }
 }

@@ -8,6 +8,7 @@
 #include "base/random.h"
 #include "nn/graph/run.h"
 #include "nn/numbers.h"
+#include "nn/ops/conv2d.h"
 
 using namespace svnet;
 using namespace svnet::test;
@@ -155,6 +156,19 @@ TEST_CASE("several threads may run one compiled graph") {
   for (const Tensor& result : results) CHECK(same_bits(result, expected));
 }
 
+TEST_CASE("SVNET_CONVOLUTION forces a kind of convolution in training, too") {
+  const Tensor x = random_tensor({1, 8, 8, 16}, 1, DType::f32), w = random_tensor({3, 3, 16, 16}, 2, DType::f32);
+  const auto trained = [&](const char* word) {
+    ::setenv("SVNET_CONVOLUTION", word, 1);
+    return ops::conv2d(x, w, {});
+  };
+  CHECK_FALSE(same_bits(trained("direct"), trained("winograd")));
+  ::setenv("SVNET_CONVOLUTION", "fast", 1);
+  CHECK_THROWS_WITH(kernels::convolution_from_environment(),
+                    "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
+  ::unsetenv("SVNET_CONVOLUTION");
+}
+
 TEST_CASE("a compiled graph says what is wrong with its inputs") {
   const Graph graph = all_layers();
   const Inference compiled(graph, drawn(graph), graph.output());
@@ -162,10 +176,6 @@ TEST_CASE("a compiled graph says what is wrong with its inputs") {
   CHECK_THROWS_WITH(compiled.run({Tensor::zeros({2, 12, 11, 5})}),
                     "[runtime] input 0 is 2x12x11x5, expected 2x12x10x5");
   CHECK_THROWS_WITH(Inference(graph, initial_parameters(graph, 1, DType::f64), graph.output()), Catch::Contains("f32"));
-  ::setenv("SVNET_CONVOLUTION", "fast", 1);
-  CHECK_THROWS_WITH(runtime::convolution_from_environment(),
-                    "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
-  ::unsetenv("SVNET_CONVOLUTION");
   CHECK(compiled.run({Tensor::zeros({0, 12, 10, 5})}).shape() == Shape{0, 4});
 }
 

@@ -1,7 +1,5 @@
 #include "nn/graph/run.h"
 
-#include <optional>
-
 #include "nn/ops/activations.h"
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
@@ -39,13 +37,9 @@ class Runner {
         Overloaded{
             [&](const InputLayer&) { return context_ == nullptr ? x[0].detached() : x[0]; },
             [&](const Conv2dLayer& l) {
-              if (const auto fused = epilogue(node, l))
-                return ops::conv2d_inference(x[0], get(node, "kernel"), conv_options(l), *fused);
               return finished(node, l, ops::conv2d(x[0], get(node, "kernel"), conv_options(l)));
             },
             [&](const DepthwiseConv2dLayer& l) {
-              if (const auto fused = epilogue(node, l))
-                return ops::depthwise_conv2d_inference(x[0], get(node, "depthwise_kernel"), conv_options(l), *fused);
               return finished(node, l, ops::depthwise_conv2d(x[0], get(node, "depthwise_kernel"), conv_options(l)));
             },
             [&](const SeparableConv2dLayer& l) {
@@ -84,16 +78,6 @@ class Runner {
   Tensor get(const GraphNode& node, const char* parameter) const {
     const Tensor& value = parameters_.at(node.name + "/" + parameter);
     return context_ == nullptr ? value.detached() : value;
-  }
-
-  /// In inference, what a convolution can do to its output by itself.
-  std::optional<ops::ConvEpilogue> epilogue(const GraphNode& node, const auto& layer) const {
-    const Activation a = layer.activation;
-    if (context_ != nullptr || (a != Activation::none && a != Activation::relu && a != Activation::relu6)) return {};
-    return ops::ConvEpilogue{.bias = layer.bias ? get(node, "bias") : Tensor{},
-                             .clamp = a == Activation::relu    ? kernels::Clamp::relu
-                                      : a == Activation::relu6 ? kernels::Clamp::relu6
-                                                               : kernels::Clamp::none};
   }
 
   static ops::ConvOptions conv_options(const auto& layer) {

@@ -45,7 +45,7 @@ void gemm_serial(const GemmShape& shape, const T* a, const T* b, T* c) {
 }
 
 template <class T>
-void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c, const Epilogue<T>& epilogue) {
+void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c) {
   const GemmShape whole = with_leading_dimensions(shape);
   // Tall tiles amortise OpenBLAS' packing of b; wide ones its packing of a.
   const Index rows = std::min<Index>(whole.m, 384);
@@ -59,8 +59,6 @@ void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T*
     part.n = std::min(columns, whole.n - column);
     gemm_serial(part, a + (whole.transpose_a ? row : row * whole.lda),
                 b + (whole.transpose_b ? column * whole.ldb : column), c + row * whole.ldc + column);
-    const Epilogue<T> here{epilogue.bias == nullptr ? nullptr : epilogue.bias + column, epilogue.clamp};
-    apply(here, part.m, part.n, whole.ldc, c + row * whole.ldc + column);
   });
 }
 
@@ -79,8 +77,8 @@ void gemm_reference(const GemmShape& shape, const T* a, const T* b, T* c) {
 
 template void gemm_serial<float>(const GemmShape&, const float*, const float*, float*);
 template void gemm_serial<double>(const GemmShape&, const double*, const double*, double*);
-template void gemm<float>(Parallel&, const GemmShape&, const float*, const float*, float*, const Epilogue<float>&);
-template void gemm<double>(Parallel&, const GemmShape&, const double*, const double*, double*, const Epilogue<double>&);
+template void gemm<float>(Parallel&, const GemmShape&, const float*, const float*, float*);
+template void gemm<double>(Parallel&, const GemmShape&, const double*, const double*, double*);
 template void gemm_reference<float>(const GemmShape&, const float*, const float*, float*);
 template void gemm_reference<double>(const GemmShape&, const double*, const double*, double*);
 

@@ -1,7 +1,6 @@
 #pragma once
 #include "base/index.h"
 #include "base/parallel.h"
-#include "nn/kernels/epilogue.h"
 
 namespace svnet::kernels {
 
@@ -17,10 +16,9 @@ struct GemmShape {
 template <class T>
 void gemm_serial(const GemmShape& shape, const T* a, const T* b, T* c);
 
-/// Cut into tiles of c whose size depends on the shape alone: the same bits for any number of threads. The epilogue is
-/// applied to each tile as soon as it is done.
+/// Cut into tiles of c whose size depends on the shape alone: the same bits for any number of threads.
 template <class T>
-void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c, const Epilogue<T>& epilogue = {});
+void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c);
 
 /// Three plain loops, sums in order of k: the test oracle.
 template <class T>

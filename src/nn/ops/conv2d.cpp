@@ -2,6 +2,7 @@
 
 #include "nn/autograd.h"
 #include "nn/kernels/conv2d/conv2d.h"
+#include "nn/kernels/convolution_choice.h"
 #include "nn/kernels/depthwise/depthwise.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/ops/checks.h"
@@ -19,44 +20,16 @@ Window window(const char* op, const Tensor& x, const Tensor& w, const ConvOption
       {.kh = w.dim(0), .kw = w.dim(1), .stride_h = o.stride_h, .stride_w = o.stride_w, .padding = o.padding});
 }
 
-template <class T>
-kernels::Epilogue<T> kernel_epilogue(const ConvEpilogue& epilogue) {
-  return {epilogue.bias.defined() ? epilogue.bias.data<T>() : nullptr, epilogue.clamp};
-}
-
-void check_bias(const char* op, const ConvEpilogue& epilogue, Index channels) {
-  check(!epilogue.bias.defined() || epilogue.bias.shape() == Shape{channels}, "[", op, "] output has ", channels,
-        " channels, bias has ", epilogue.bias.defined() ? to_string(epilogue.bias.shape()) : "");
-}
-
-}  // namespace
-
-Tensor conv2d_inference(const Tensor& x, const Tensor& w, const ConvOptions& options, const ConvEpilogue& epilogue) {
-  const kernels::Conv2dShape s{.window = window("conv2d", x, w, options), .k = w.dim(3)};
-  check_bias("conv2d", epilogue, s.k);
-  Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.k}, x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() {
-    kernels::conv2d(pool(), s, x.data<T>(), w.data<T>(), y.data<T>(), kernel_epilogue<T>(epilogue));
-  });
-  return y;
-}
-
-Tensor depthwise_conv2d_inference(const Tensor& x, const Tensor& w, const ConvOptions& options,
-                                  const ConvEpilogue& epilogue) {
-  const kernels::DepthwiseShape s{.window = window("depthwise_conv2d", x, w, options), .multiplier = w.dim(3)};
-  check_bias("depthwise_conv2d", epilogue, s.window.c * s.multiplier);
-  Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.window.c * s.multiplier}, x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() {
-    kernels::depthwise(pool(), s, x.data<T>(), w.data<T>(), y.data<T>(), kernel_epilogue<T>(epilogue));
-  });
-  return y;
-}
-
-namespace {
-
 /// The three passes of a 3×3 convolution of stride 1 by Winograd, in f32.
 bool by_winograd(const kernels::Conv2dShape& s, DType dtype) {
-  return dtype == DType::f32 && s.window.n > 0 && kernels::winograd_fits(s.window, s.k);
+  return dtype == DType::f32 && s.window.n > 0 && kernels::winograd_fits(s.window, s.k) &&
+         kernels::convolution_from_environment() != kernels::Convolution::direct;
+}
+
+Tensor direct_forward(const kernels::Conv2dShape& s, const Tensor& x, const Tensor& w) {
+  Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.k}, x.dtype());
+  with_dtype(x.dtype(), [&]<class T>() { kernels::conv2d(pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
+  return y;
 }
 
 /// Scratch memory comes from where tensors' does, which keeps freed blocks.
@@ -98,7 +71,7 @@ Tensor conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
   const kernels::Conv2dShape s{.window = window("conv2d", x, w, options), .k = w.dim(3)};
   Tensor y = by_winograd(s, x.dtype())
                  ? winograd_forward(s.window, x, kernels::winograd_weights(s.window.c, s.k, w.data<float>(), nullptr))
-                 : conv2d_inference(x, w, options, {});
+                 : direct_forward(s, x, w);
   return autograd::record(y, {x, w}, [s, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
     if (g.wants(0)) g.add(0, input_gradient(s, dy, w));
     if (g.wants(1)) g.add(1, weight_gradient(s, x, dy));
@@ -107,7 +80,8 @@ Tensor conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
 
 Tensor depthwise_conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
   const kernels::DepthwiseShape s{.window = window("depthwise_conv2d", x, w, options), .multiplier = w.dim(3)};
-  Tensor y = depthwise_conv2d_inference(x, w, options, {});
+  Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.window.c * s.multiplier}, x.dtype());
+  with_dtype(x.dtype(), [&]<class T>() { kernels::depthwise(pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
   return autograd::record(y, {x, w}, [s, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
     with_dtype(dy.dtype(), [&]<class T>() {
       if (g.wants(0)) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
-#include <cstdlib>
 #include <optional>
 
 #include "nn/kernels/winograd/winograd.h"
@@ -361,14 +360,6 @@ class Compiler {
 };
 
 }  // namespace
-
-Convolution convolution_from_environment() {
-  const char* text = std::getenv("SVNET_CONVOLUTION");
-  if (text == nullptr || *text == '\0') return Convolution::automatic;
-  const std::string word = text;
-  check(word == "direct" || word == "winograd", "[SVNET_CONVOLUTION] '", word, "' is neither direct nor winograd");
-  return word == "direct" ? Convolution::direct : Convolution::winograd;
-}
 
 Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution) {
   const FoldedGraph inference = folded(graph, parameters, output);

@@ -4,6 +4,7 @@
 
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
+#include "nn/kernels/convolution_choice.h"
 #include "nn/runtime/step.h"
 
 namespace svnet::runtime {
@@ -27,10 +28,7 @@ struct Program {
   ValueId output;            // written by exactly one step
 };
 
-/// Which kernels 3×3 convolutions of stride 1 may use; SVNET_CONVOLUTION=direct|winograd forces one, for testing.
-enum class Convolution { automatic, direct, winograd };
-/// Throws Error for another word.
-Convolution convolution_from_environment();
+using kernels::Convolution;
 
 /// Compiles what `output` needs: batch norms folded, and padding, activations, additions, pooling, and the pointwise
 /// half of separable convolutions fused into the convolution beside them wherever nobody else reads what lies between.

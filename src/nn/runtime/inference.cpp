@@ -66,7 +66,7 @@ class Inference::Loan {
 };
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output)
-    : Inference(graph, parameters, output, runtime::convolution_from_environment()) {}
+    : Inference(graph, parameters, output, kernels::convolution_from_environment()) {}
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution)
     : program_(runtime::compile(graph, parameters, output, convolution)), memory_(planned(program_)) {}

@@ -38,10 +38,10 @@ void copy_or_zero(const T* x, Index source, Index count, T* to) {
 }  // namespace
 
 template <class T>
-void conv2d(Parallel& parallel, const Conv2dShape& s, const T* x, const T* w, T* y, const Epilogue<T>& epilogue) {
+void conv2d(Parallel& parallel, const Conv2dShape& s, const T* x, const T* w, T* y) {
   const Window& win = s.window;
   const Index depth = win.kh * win.kw * win.c;
-  if (win.reads_in_place()) return gemm(parallel, {.m = win.positions(), .n = s.k, .k = depth}, x, w, y, epilogue);
+  if (win.reads_in_place()) return gemm(parallel, {.m = win.positions(), .n = s.k, .k = depth}, x, w, y);
   const Index tile = tile_positions(s);
   std::vector<std::vector<T>> scratch(static_cast<std::size_t>(parallel.threads()));
   parallel.for_chunks(win.positions(), tile, [&](Index begin, Index end, int worker) {
@@ -54,7 +54,6 @@ void conv2d(Parallel& parallel, const Conv2dShape& s, const T* x, const T* w, T*
       });
     }
     gemm_serial({.m = end - begin, .n = s.k, .k = depth}, windows.data(), w, y + begin * s.k);
-    apply(epilogue, end - begin, s.k, s.k, y + begin * s.k);
   });
 }
 
@@ -146,7 +145,7 @@ void conv2d_weight_gradient_reference(const Conv2dShape& s, const T* x, const T*
 }
 
 #define SVNET_INSTANTIATE(T)                                                                          \
-  template void conv2d<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*, const Epilogue<T>&); \
+  template void conv2d<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*); \
   template void conv2d_input_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);      \
   template void conv2d_weight_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);     \
   template void conv2d_reference<T>(const Conv2dShape&, const T*, const T*, T*);                      \

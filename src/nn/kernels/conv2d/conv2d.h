@@ -1,6 +1,5 @@
 #pragma once
 #include "base/parallel.h"
-#include "nn/kernels/epilogue.h"
 #include "nn/kernels/window.h"
 
 namespace svnet::kernels {
@@ -11,9 +10,9 @@ struct Conv2dShape {
   Index k;
 };
 
-/// y = epilogue(x * w), as rows of windows (made tile by tile, never whole) times w; 1×1 stride 1 reads x in place.
+/// y = x * w, as rows of windows (made tile by tile, never whole) times w; 1×1 stride 1 reads x in place.
 template <class T>
-void conv2d(Parallel&, const Conv2dShape&, const T* x, const T* w, T* y, const Epilogue<T>& epilogue = {});
+void conv2d(Parallel&, const Conv2dShape&, const T* x, const T* w, T* y);
 /// dx from dy (N, OH, OW, K).
 template <class T>
 void conv2d_input_gradient(Parallel&, const Conv2dShape&, const T* dy, const T* w, T* dx);

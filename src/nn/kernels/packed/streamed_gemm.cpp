@@ -10,13 +10,7 @@
 
 #include "base/aligned.h"
 #include "nn/kernels/packed/micro_kernel-inl.h"
-
-#ifndef SVNET_STREAMED_BLOCK
-#define SVNET_STREAMED_BLOCK
-namespace svnet::kernels {
-constexpr Index kDepth = 128, kColumns = 128;  // of a block: 64 KiB
-}
-#endif
+#include "nn/kernels/packed/streamed_block.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
@@ -36,16 +30,16 @@ HWY_INLINE void lay_out(const StreamedShape& s, const float* w, Index k0, Index 
   }
 }
 
-/// The columns [column, column + kColumns) of c; sums (m, kColumns) and block are scratch.
+/// The columns [column, column + kStreamedColumns) of c; sums (m, kStreamedColumns) and block are scratch.
 void streamed_columns(const StreamedShape& s, Index column, const float* a, const float* w, float* c, float* block,
                       float* sums) {
-  const Index columns = HWY_MIN(kColumns, s.n - column), all = panels(columns);
+  const Index columns = HWY_MIN(kStreamedColumns, s.n - column), all = panels(columns);
   const Index tiles = all * ((s.m + kTileRows - 1) / kTileRows);
-  for (Index k0 = 0; k0 < s.k; k0 += kDepth) {
-    const Index k1 = HWY_MIN(k0 + kDepth, s.k), next_end = HWY_MIN(k1 + kDepth, s.k);
+  for (Index k0 = 0; k0 < s.k; k0 += kStreamedDepth) {
+    const Index k1 = HWY_MIN(k0 + kStreamedDepth, s.k), next_end = HWY_MIN(k1 + kStreamedDepth, s.k);
     lay_out(s, w, k0, k1, column, columns, block);
     // The next block is asked for a few rows at a time, between the products.
-    const Index rows_each = (kDepth + tiles - 1) / tiles;
+    const Index rows_each = (kStreamedDepth + tiles - 1) / tiles;
     Index next = k1;
     for (Index p = 0; p < all; ++p)
       for (Index row = 0; row < s.m; row += kTileRows) {
@@ -53,10 +47,10 @@ void streamed_columns(const StreamedShape& s, Index column, const float* a, cons
           for (Index i = 0; i < columns; i += kPanel) hwy::Prefetch(w + next * s.n + column + i);
         const Index height = HWY_MIN(Index{kTileRows}, s.m - row);
         multiply_panel(height, {a + row * s.k + k0, s.k, kPanel}, k1 - k0, block + p * (k1 - k0) * kPanel,
-                       {sums + row * kColumns + p * kPanel, kColumns, k0 > 0});
+                       {sums + row * kStreamedColumns + p * kPanel, kStreamedColumns, k0 > 0});
       }
   }
-  for (Index row = 0; row < s.m; ++row) std::copy_n(sums + row * kColumns, columns, c + row * s.n + column);
+  for (Index row = 0; row < s.m; ++row) std::copy_n(sums + row * kStreamedColumns, columns, c + row * s.n + column);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -70,11 +64,11 @@ HWY_EXPORT(streamed_columns);
 
 void streamed_gemm(Parallel& parallel, const StreamedShape& shape, const float* a, const float* w, float* c) {
   if (shape.m == 0) return;
-  const Index per_worker = kDepth * kColumns + shape.m * kColumns;
+  const Index per_worker = kStreamedDepth * kStreamedColumns + shape.m * kStreamedColumns;
   const AlignedFloats scratch = aligned_floats(parallel.threads() * per_worker);
-  parallel.for_chunks(shape.n, kColumns, [&](Index begin, Index, int worker) {
+  parallel.for_chunks(shape.n, kStreamedColumns, [&](Index begin, Index, int worker) {
     float* block = scratch.get() + worker * per_worker;
-    HWY_DYNAMIC_DISPATCH(streamed_columns)(shape, begin, a, w, c, block, block + kDepth * kColumns);
+    HWY_DYNAMIC_DISPATCH(streamed_columns)(shape, begin, a, w, c, block, block + kStreamedDepth * kStreamedColumns);
   });
 }
 
