@@ -1,6 +1,7 @@
 // svnet-features: features of every picture of a dataset.
 #include "base/text.h"
 #include "command/command.h"
+#include "command/openblas_cap.h"
 #include "io/atomic_file.h"
 #include "io/file_hash.h"
 #include "io/keras_graph.h"
@@ -31,25 +32,27 @@ int run(int argc, char** argv, Team& team) {
   command.app()
       .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
       ->type_name("NAME");
-  return command.run(argc, argv, [&](Console& console) {
-    const bool first = team.rank() == 0;
-    if (first) check_can_be_written(output);
-    KerasLoadReport report;
-    const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
-    if (first)
-      console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                          report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
-    const ViewDataset dataset = read_view_dataset(images);
-    const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
-    const Features features =
-        extract_features(source.backbone, dataset, origin, first ? console.messages() : Messages{}, team);
-    if (!first) return;
-    write_features(output, features);
-    console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
-  });
+  return command.run(
+      argc, argv,
+      [&](Console& console) {
+        if (team.first()) check_can_be_written(output);
+        KerasLoadReport report;
+        const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
+        console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
+                            report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
+        const ViewDataset dataset = read_view_dataset(images);
+        const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
+        const Features features = extract_features(source.backbone, dataset, origin, console.messages(), team);
+        if (team.first()) write_features(output, features);
+        console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
+      },
+      team);
 }
 
 }  // namespace
 }  // namespace svnet
 
-int main(int argc, char** argv) { return svnet::main_of_team(argc, argv, "svnet-features", svnet::run); }
+int main(int argc, char** argv) {
+  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
+  return svnet::main_of_team(argc, argv, "svnet-features", svnet::run);
+}

@@ -1,5 +1,6 @@
 // svnet-score: Monte-Carlo semantic scores of every view of a features file.
 #include "command/command.h"
+#include "command/openblas_cap.h"
 #include "io/atomic_file.h"
 #include "io/features_file.h"
 #include "io/scores_file.h"
@@ -75,35 +76,36 @@ int run(int argc, char** argv, Team& team) {
       ->check(CLI::Range(0.0, 30.0))
       ->capture_default_str();
   command.app().add_flag("--resume", resume, "Go on from OUTPUT.snapshot, which is kept up to date, where it exists");
-  return command.run(argc, argv, [&](Console& console) {
-    const bool first = team.rank() == 0;
-    const Messages messages = first ? console.messages() : Messages{};
-    auto& s = config.scores;
-    if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
-      wrong_usage("give one of --min-samples, --problems, --target-error");
-    s.clustering = clustering_from_name(linkage);
-    s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
-    config.dataset.held_out = excluded;
-    if (first) check_can_be_written(output);
-    const ViewDataset dataset = read_view_dataset(dataset_folder);
-    const Features features = read_features(features_file);
-    check_rows(dataset, features.paths, features_file.string());
-    check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
-          ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
-    const std::filesystem::path snapshot = snapshot_path(output);
-    const Scores scores =
-        make_scores(dataset, features, named_categories(dataset, excluded, "--exclude"), config, messages,
-                    {.snapshot = snapshot, .snapshot_seconds = snapshot_seconds, .resume = resume, .team = &team});
-    if (!first) return;
-    write_scores(output, scores);
-    std::error_code no_snapshot;
-    std::filesystem::remove(snapshot, no_snapshot);
-    console.result(joined(output.string(), ": ", scores.problems, " problems"));
-    console.result(certainty_text(scores));
-  });
+  return command.run(
+      argc, argv,
+      [&](Console& console) {
+        auto& s = config.scores;
+        if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
+          wrong_usage("give one of --min-samples, --problems, --target-error");
+        s.clustering = clustering_from_name(linkage);
+        s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
+        config.dataset.held_out = excluded;
+        if (team.first()) check_can_be_written(output);
+        const ViewDataset dataset = read_view_dataset(dataset_folder);
+        const Features features = read_features(features_file);
+        check_rows(dataset, features.paths, features_file.string());
+        check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
+              ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
+        const Scores scores = make_scores(output, dataset, features, named_categories(dataset, excluded, "--exclude"),
+                                          config, console.messages(),
+                                          {.resume = resume ? ScoresRun::Resume::any : ScoresRun::Resume::never,
+                                           .snapshot_seconds = snapshot_seconds,
+                                           .team = team});
+        console.result(joined(output.string(), ": ", scores.problems, " problems"));
+        console.result(certainty_text(scores));
+      },
+      team);
 }
 
 }  // namespace
 }  // namespace svnet
 
-int main(int argc, char** argv) { return svnet::main_of_team(argc, argv, "svnet-score", svnet::run); }
+int main(int argc, char** argv) {
+  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
+  return svnet::main_of_team(argc, argv, "svnet-score", svnet::run);
+}

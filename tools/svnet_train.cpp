@@ -1,12 +1,17 @@
 // svnet-train: pictures become features, features scores, scores train SV-net.
 #include "command/command.h"
+#include "command/openblas_cap.h"
+#include "mpi/mpi_team.h"
 #include "train/run.h"
 
-int main(int argc, char** argv) {
-  using namespace svnet;
+namespace svnet {
+namespace {
+
+int run(int argc, char** argv, Team& team) {
   Command command("svnet-train",
                   "Runs every stage of a configuration into a run folder: features, scores, training, model.",
-                  "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos");
+                  "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos\n"
+                  "mpirun -n 4 svnet-train --threads 8 configs/eth80.yaml");
   std::filesystem::path config_file, output;
   std::vector<std::string> overrides;
   std::string resume = "auto";
@@ -26,18 +31,29 @@ int main(int argc, char** argv) {
       ->check(CLI::IsMember({"auto", "never"}))
       ->capture_default_str();
   command.app().add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
-  return command.run(argc, argv, [&](Console& console) {
-    const Config config = read_config(config_file, overrides);
-    ViewDataset dataset = read_view_dataset(config.dataset.root);
-    if (dry) {
-      dry_run(config, dataset, console.messages());
-      console.result("dry run: every stage works");
-      return;
-    }
-    if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
-    console.log_to(output / "log.txt");
-    Run run(config, std::move(dataset), output, console.messages());
-    run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);
-    console.result((output / "model.safetensors").string());
-  });
+  return command.run(
+      argc, argv,
+      [&](Console& console) {
+        const Config config = read_config(config_file, overrides);
+        ViewDataset dataset = read_view_dataset(config.dataset.root);
+        if (dry) {
+          if (team.first()) dry_run(config, dataset, console.messages());
+          console.result("dry run: every stage works");
+          return;
+        }
+        if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
+        console.log_to(output / "log.txt");
+        Run run(config, std::move(dataset), output, console.messages(), team);
+        run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);
+        console.result((output / "model.safetensors").string());
+      },
+      team);
+}
+
+}  // namespace
+}  // namespace svnet
+
+int main(int argc, char** argv) {
+  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
+  return svnet::main_of_team(argc, argv, "svnet-train", svnet::run);
 }

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "base/team.h"
 
 namespace svnet {
 namespace {
@@ -82,7 +83,7 @@ bool spin_until(const Condition& condition) {
 struct Job {
   Index count, chunk, chunks;
   Parallel::Body body;
-  std::atomic<Index> next{0};
+  std::atomic<Index> next;
   std::mutex mutex{};
   std::exception_ptr error{};
   Index error_chunk = std::numeric_limits<Index>::max();
@@ -188,14 +189,16 @@ struct Parallel::Pool {
   }
 };
 
-Parallel::Parallel(int threads) : pool_(std::make_unique<Pool>()) { pool_->start(checked_threads(threads, "threads")); }
-
-Parallel::~Parallel() {
-  if (pool_->forked())
-    static_cast<void>(pool_.release());  // its threads can be neither joined nor destroyed
-  else
-    pool_->join();
+Parallel::Parallel(int threads)
+    : pool_(new Pool, [](Pool* pool) {
+        if (pool->forked()) return;  // its threads can be neither joined nor destroyed
+        pool->join();
+        delete pool;
+      }) {
+  pool_->start(checked_threads(threads, "threads"));
 }
+
+Parallel Parallel::share(const Team& team) const { return {pool_, team}; }
 
 int Parallel::threads() const { return pool_->threads; }
 
@@ -214,10 +217,15 @@ void Parallel::resize(int threads) {
 void Parallel::for_chunks(Index count, Index chunk, Body body) {
   if (count <= 0) return;
   chunk = std::max<Index>(chunk, 1);
-  const Index chunks = (count + chunk - 1) / chunk;
-  Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = body};
+  Index first = 0, chunks = (count + chunk - 1) / chunk;
+  if (team_ != nullptr) {
+    const Share share = share_of(*team_, 0, static_cast<std::uint64_t>(chunks));
+    first = static_cast<Index>(share.first);
+    chunks = static_cast<Index>(share.last);
+  }
+  Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = body, .next = first};
   std::unique_lock call(pool_->call, std::defer_lock);
-  if (chunks > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
+  if (chunks - first > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
     pool_->run(job);
   } else {
     job.work(0);

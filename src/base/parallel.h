@@ -6,6 +6,8 @@
 
 namespace svnet {
 
+class Team;
+
 /// A thread pool that cuts ranges into chunks whose boundaries never depend on the number of threads, so that work
 /// which writes per chunk, or sums per chunk in order, gives the same bits for any number of threads.
 ///
@@ -18,7 +20,6 @@ class Parallel {
   using Body = FunctionRef<void(Index begin, Index end, int worker)>;
 
   explicit Parallel(int threads);
-  ~Parallel();
   Parallel(const Parallel&) = delete;
   Parallel& operator=(const Parallel&) = delete;
 
@@ -30,12 +31,19 @@ class Parallel {
   /// If bodies throw, the exception of the lowest chunk is rethrown. Allocates nothing.
   void for_chunks(Index count, Index chunk, Body body);
 
+  /// The same threads for this process's share of the chunks of each range: for work whose chunks write apart, where
+  /// the processes of the team gather afterwards what each has written. The team must outlive it.
+  Parallel share(const Team& team) const;
+
   /// The pool of the process. It starts with SVNET_THREADS threads, or as many as the affinity mask has CPUs.
   static Parallel& shared();
 
  private:
   struct Pool;
-  std::unique_ptr<Pool> pool_;
+  Parallel(std::shared_ptr<Pool> pool, const Team& team) : pool_(std::move(pool)), team_(&team) {}
+
+  std::shared_ptr<Pool> pool_;
+  const Team* team_ = nullptr;
 };
 
 }  // namespace svnet

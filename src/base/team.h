@@ -16,6 +16,7 @@ class Team {
   virtual void gather(std::span<float> values) = 0;
   /// What process 0 says.
   virtual std::uint64_t from_first(std::uint64_t value) = 0;
+  bool first() const { return rank() == 0; }  ///< the one that speaks and writes files
 };
 
 /// A process that works alone.
@@ -26,6 +27,11 @@ class Alone : public Team {
   void sum(std::span<std::uint64_t>) override {}
   void gather(std::span<float>) override {}
   std::uint64_t from_first(std::uint64_t value) override { return value; }
+  /// For who has no team.
+  static Alone& shared() {
+    static Alone alone;
+    return alone;
+  }
 };
 
 /// The part of [first, last) that is a process's share: contiguous, in the order of ranks, as equal as possible.

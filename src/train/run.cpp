@@ -4,33 +4,18 @@
 
 #include "base/parallel.h"
 #include "io/keras_graph.h"
+#include "train/reused_file.h"
 #include "train/scores_stage.h"
 #include "train/trained_from.h"
 
 namespace svnet {
-namespace {
-
 namespace fs = std::filesystem;
 
-/// What `read` returns, or nothing where the file does not exist or cannot be used; then it is made again.
-template <class Read>
-auto read_if_possible(const fs::path& path, const Messages& messages, Read read)
-    -> std::optional<decltype(read(path))> {
-  if (!fs::exists(path)) return {};
-  try {
-    return read(path);
-  } catch (const Error& error) {
-    if (messages.line) messages.line(joined("made again: ", error.what()));
-    return {};
-  }
-}
-
-}  // namespace
-
-Run::Run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages)
+Run::Run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages, Team& team)
     : config_(std::move(config)),
       folder_(std::move(folder)),
       messages_(messages),
+      team_(team),
       dataset_(std::move(dataset)),
       held_out_(named_categories(dataset_, config_.dataset.held_out, "dataset.held_out")) {
   const auto training = std::count(held_out_.begin(), held_out_.end(), false);
@@ -95,15 +80,12 @@ const Features& Run::features(const std::string& name, const std::string& layer)
 Features Run::made_features(const fs::path& path, const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, dataset_fingerprint_);
-  const auto have = read_if_possible(path, messages_, read_features_origin);
-  if (have && have->input_fingerprint == origin.input_fingerprint)
-    if (auto features = read_if_possible(path, messages_, read_features)) {
-      say(joined("features of ", name, ": reused ", path.filename().string()));
-      return std::move(*features);
-    }
-  Alone alone;
-  Features features = extract_features(source.backbone, dataset_, origin, messages_, alone);
-  write_features(path, features);
+  if (auto features = reused_file(path, origin.input_fingerprint, read_features, team_, messages_)) {
+    say(joined("features of ", name, ": reused ", path.filename().string()));
+    return std::move(*features);
+  }
+  Features features = extract_features(source.backbone, dataset_, origin, messages_, team_);
+  if (team_.first()) write_features(path, features);
   return features;
 }
 

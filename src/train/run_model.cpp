@@ -9,6 +9,7 @@
 #include "io/checkpoint.h"
 #include "models/trained_graph.h"
 #include "nn/graph/run.h"
+#include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
 #include "train/trained_from.h"
@@ -80,17 +81,14 @@ std::string Run::model_fingerprint() {
 }
 
 Model Run::model(Resume resume) {
-  write_atomically(folder_ / "config.yaml", to_yaml(config_));
+  if (team_.first()) write_atomically(folder_ / "config.yaml", to_yaml(config_));
   const Scores& scores = this->scores();
   const std::string wanted = model_fingerprint();
   const auto path = folder_ / "model.safetensors";
-  if (std::filesystem::exists(path) && resume == Resume::automatic) try {
-      if (Model model = read_model(path); model.input_fingerprint == wanted) {
-        say("SV-net: reused model.safetensors");
-        return model;
-      }
-    } catch (const Error& error) {
-      say(joined("made again: ", error.what()));
+  if (resume == Resume::automatic)
+    if (auto model = reused_file(path, wanted, read_model, team_, messages_)) {
+      say("SV-net: reused model.safetensors");
+      return std::move(*model);
     }
 
   const BackboneWithOrigin& source = backbone(config_.sv_net.backbone, config_.sv_net.layer);
@@ -124,7 +122,7 @@ Model Run::model(Resume resume) {
   say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " views to learn from",
              validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
-  write_model(path, model);
+  if (team_.first()) write_model(path, model);
   return model;
 }
 
@@ -149,35 +147,39 @@ std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeI
   std::vector<Index> top_views;
   for (const auto& pose : dataset_.poses)
     if (!held_out_[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
-  inputs->keep(top_views, messages_);
+  inputs->keep(top_views, messages_, team_);
   return inputs;
 }
 
 void Run::train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
                      Resume resume) {
   TrainerOptions options = trainer_options(config_, model.input_fingerprint);
-  options.schedule = schedule(config_.training, Trainer(graph, training, validation, options).steps_per_epoch());
-  Trainer trainer(graph, training, validation, options);
+  options.schedule = schedule(config_.training, Trainer(graph, training, validation, options, team_).steps_per_epoch());
+  Trainer trainer(graph, training, validation, options, team_);
   const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
   std::optional<Checkpoint> from;
-  if (resume == Resume::automatic) try {
+  if (resume == Resume::automatic && team_.first()) try {
       if (read_checkpoint_fingerprint(last) == model.input_fingerprint &&
-          read_checkpoint_fingerprint(best) == model.input_fingerprint) {
+          read_checkpoint_fingerprint(best) == model.input_fingerprint)
         from = read_checkpoint(last, graph, trainer.optimizer_shapes());
-        say(joined("training: goes on after epoch ", from->epoch));
-      }
     } catch (const Error& error) {
       say(joined("training starts anew: ", error.what()));
     }
+  if (team_.from_first(from.has_value()) != 0) {
+    if (!from) from = read_checkpoint(last, graph, trainer.optimizer_shapes());
+    say(joined("training: goes on after epoch ", from->epoch));
+  }
   trainer.train(
       from ? std::move(*from)
            : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
+        if (!team_.first()) return;
         if (is_best) write_checkpoint(best, state);
         write_checkpoint(last, state);
         write_atomically(folder_ / "metrics.csv", state.metrics);
       },
       messages_);
+  team_.from_first(0);  // has written what all read
   take_trained(read_checkpoint_parameters(best, graph), model.backbone_parameters, model.head_parameters);
 }
 

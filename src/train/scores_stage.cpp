@@ -62,18 +62,37 @@ std::string scores_fingerprint(const std::string& features_fingerprint, const Co
 
 namespace {
 
-/// The sums of a snapshot of the same scores.
-ScoreSums resumed_sums(const std::filesystem::path& path, const std::string& fingerprint, Index views) {
+/// Puts the work of a snapshot into `sums`. A snapshot of other scores is refused or, where `only_same`, left alone.
+void resume(const std::filesystem::path& path, const std::string& fingerprint, bool only_same, ScoreSums& sums) {
   const ScoresSnapshot snapshot = read_scores_snapshot(path);
+  if (only_same && snapshot.input_fingerprint != fingerprint) return;
   check(snapshot.input_fingerprint == fingerprint, path.string(),
         ": a snapshot of other scores (other features, options or seed); repeat the command that made it, or leave out "
         "--resume");
-  ScoreSums sums(views);
   const auto numbers = sums.numbers();
+  const auto views = static_cast<Index>(sums.views.size());
   check(snapshot.views == views && snapshot.sums.size() == numbers.size(), path.string(), ": dataset 'sums': has ",
         snapshot.sums.size(), " numbers of ", snapshot.views, " views, expected ", numbers.size(), " of ", views);
   std::copy(snapshot.sums.begin(), snapshot.sums.end(), numbers.begin());
   sums.problems = static_cast<std::uint64_t>(snapshot.problems);
+}
+
+/// What the team goes on from: what its first process finds in a snapshot, or nothing.
+ScoreSums first_sums(const std::filesystem::path& path, const std::string& fingerprint, Index views,
+                     const Messages& messages, const ScoresRun& run) {
+  using Resume = ScoresRun::Resume;
+  ScoreSums sums(views);
+  if (run.resume == Resume::never) return sums;
+  if (run.team.first() && std::filesystem::exists(path)) try {
+      resume(path, fingerprint, run.resume == Resume::same, sums);
+    } catch (const Error& error) {
+      if (run.resume == Resume::any) throw;
+      if (messages.line) messages.line(joined("made again: ", error.what()));
+    }
+  sums.problems = run.team.from_first(sums.problems);
+  if (sums.problems == 0) return sums;
+  run.team.sum(sums.numbers());
+  if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
   return sums;
 }
 
@@ -103,8 +122,9 @@ class Snapshots {
 
 }  // namespace
 
-Scores make_scores(const ViewDataset& dataset, const Features& features, const std::vector<bool>& excluded,
-                   const Config& config, const Messages& messages, const ScoresRun& run) {
+Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
+                   const std::vector<bool>& excluded, const Config& config, const Messages& messages,
+                   const ScoresRun& run) {
   const auto& s = config.scores;
   const DistanceMatrix distances =
       squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared());
@@ -118,15 +138,10 @@ Scores make_scores(const ViewDataset& dataset, const Features& features, const s
       .clustering = clustering_options(s.clustering, features.dimension)};
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
 
-  Alone alone;
-  Team& team = run.team == nullptr ? alone : *run.team;
-  ScoreSums sums(problems.views());
-  if (run.resume && std::filesystem::exists(run.snapshot)) {
-    sums = resumed_sums(run.snapshot, fingerprint, problems.views());
-    if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
-  }
-  Snapshots snapshots(team.rank() == 0 ? run.snapshot : std::filesystem::path(), run.snapshot_seconds, fingerprint);
-  continue_scores(distances, problems, options, Parallel::shared(), team, sums,
+  const std::filesystem::path snapshot = snapshot_path(path);
+  ScoreSums sums = first_sums(snapshot, fingerprint, problems.views(), messages, run);
+  Snapshots snapshots(run.team.first() ? snapshot : std::filesystem::path(), run.snapshot_seconds, fingerprint);
+  continue_scores(distances, problems, options, Parallel::shared(), run.team, sums,
                   {&messages, [&](const ScoreSums& so_far) { snapshots.offer(so_far); }});
   SemanticScores made = scores_from(sums);
 
@@ -144,6 +159,11 @@ Scores make_scores(const ViewDataset& dataset, const Features& features, const s
                 rank_stability(sums, problems.pose_of_view()),
                 features.paths};
   scores.scaled = scaled_per_pose(scores.individual, problems.pose_of_view());
+  if (run.team.first()) {
+    write_scores(path, scores);
+    std::error_code no_snapshot;
+    std::filesystem::remove(snapshot, no_snapshot);
+  }
   return scores;
 }
 

@@ -19,18 +19,21 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
 /// Changes with everything that the scores of these features depend on.
 std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
 
-/// How long work on scores is kept safe and shared.
+/// How work on scores is kept safe and shared.
 struct ScoresRun {
-  std::filesystem::path snapshot;  ///< rewritten while problems are solved; empty: none
-  double snapshot_seconds = 10;    ///< from one to the next
-  bool resume = false;             ///< go on from the snapshot, where there is one
-  Team* team = nullptr;            ///< that shares the work; its process 0 writes snapshots
+  /// Whether to go on from a snapshot: not at all, from one of the same scores, or from any there is, where one of
+  /// other scores is an Error.
+  enum class Resume { never, same, any } resume = Resume::never;
+  double snapshot_seconds = 10;  ///< from one snapshot to the next
+  Team& team = Alone::shared();  ///< that shares the work; its first process reads and writes files
 };
 
-/// Scores of every view as `config.scores` and `config.seed` say; views of excluded categories have none. Rows of the
-/// features are the dataset's views. Throws Error for a snapshot of other scores.
-Scores make_scores(const ViewDataset& dataset, const Features& features, const std::vector<bool>& excluded,
-                   const Config& config, const Messages& messages, const ScoresRun& run = {});
+/// Makes the scores of every view as `config.scores` and `config.seed` say, views of excluded categories have none, and
+/// writes them to `path`. A snapshot is kept at snapshot_path(path) while problems are solved. Rows of the features are
+/// the dataset's views.
+Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
+                   const std::vector<bool>& excluded, const Config& config, const Messages& messages,
+                   const ScoresRun& run);
 
 /// How well scores are known, in a line or two.
 std::string certainty_text(const Scores& scores);

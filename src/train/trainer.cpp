@@ -1,6 +1,7 @@
 #include "train/trainer.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -75,8 +76,8 @@ std::string metrics_line(Index epoch, Index step, double rate, double loss, std:
 }  // namespace
 
 Trainer::Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
-                 const TrainerOptions& options)
-    : graph_(graph), training_(training), validation_(validation), options_(options) {
+                 const TrainerOptions& options, Team& team)
+    : graph_(graph), training_(training), validation_(validation), options_(options), team_(team) {
   check(training_.size() >= 2, "[training] needs at least 2 views with a score, there are ", training_.size());
 }
 
@@ -106,7 +107,8 @@ Index Trainer::steps_per_epoch() const {
 
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
-  const TrainingContext context{.seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps)};
+  const TrainingContext context{
+      .seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps), .team = &team_};
   const Tensor score = svnet::train(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()}, context)[0];
   const Tensor loss = ops::mean_squared_error(score, batch.targets);
   check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
@@ -163,6 +165,10 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
       sum += step(examples, state.parameters, *optimizer) * static_cast<double>(end - begin);
       if (++done % per_epoch != 0) progress.update(done);
     }
+    const auto bits = std::bit_cast<std::uint64_t>(sum);
+    check(team_.from_first(bits) == bits, "[training] process ", team_.rank(),
+          " has another loss than process 0 in epoch ", state.epoch + 1,
+          "; processes must run on processors of one kind, or with SVNET_MAX_ISA set to what all of them have");
     const double loss = sum / static_cast<double>(training_.size());
     std::optional<double> validation;
     if (validation_ != nullptr) validation = mean_loss(*validation_, state.parameters);

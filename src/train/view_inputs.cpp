@@ -62,18 +62,22 @@ Tensor PictureInputs::batch(std::span<const Index> views) const {
   return batch;
 }
 
-void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages) {
+void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages, Team& team) {
   const auto count = static_cast<Index>(views.size());
   const Index size = element_count(shape());
-  Tensor kept = Tensor::empty(batched(count, shape()));
-  Progress progress(messages, "frozen layers", count);
-  for (Index begin = 0; begin < count; begin += kBatch) {
-    const Index end = std::min(begin + kBatch, count);
+  Tensor kept = Tensor::zeros(batched(count, shape()));
+  const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
+  const Index first = static_cast<Index>(share.first) * kBatch;
+  const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
+  Progress progress(messages, "frozen layers", std::max<Index>(last - first, 0));
+  for (Index begin = first; begin < last; begin += kBatch) {
+    const Index end = std::min(begin + kBatch, last);
     const Tensor part =
         made(std::span(views).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
     std::copy_n(part.data<float>(), part.size(), kept.data<float>() + begin * size);
-    progress.update(end);
+    progress.update(end - first);
   }
+  team.gather({kept.data<float>(), static_cast<std::size_t>(kept.size())});
   kept_ = kept;
   std::fill(kept_row_.begin(), kept_row_.end(), -1);
   for (std::size_t i = 0; i < views.size(); ++i) kept_row_[static_cast<std::size_t>(views[i])] = static_cast<Index>(i);

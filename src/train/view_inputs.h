@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "base/progress.h"
+#include "base/team.h"
 #include "io/features_file.h"
 #include "io/view_dataset.h"
 #include "models/image/preprocessing.h"
@@ -42,8 +43,8 @@ class PictureInputs : public ViewInputs {
   Shape shape() const override;
   Tensor batch(std::span<const Index> views) const override;
 
-  /// Computes the inputs of these views once and for all, and keeps them in memory.
-  void keep(const std::vector<Index>& views, const Messages& messages);
+  /// Computes the inputs of these views once and for all, and keeps them in memory; a team shares the work.
+  void keep(const std::vector<Index>& views, const Messages& messages, Team& team);
 
  private:
   Tensor made(std::span<const Index> views) const;

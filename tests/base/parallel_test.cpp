@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <algorithm>
 #include <atomic>
 #include <catch2/catch.hpp>
 #include <mutex>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/team.h"
 
 using namespace svnet;
 
@@ -68,4 +70,36 @@ TEST_CASE("the pool can be resized between calls") {
     CHECK(sum == 1000);
   }
   CHECK_THROWS_WITH(pool.resize(0), "[threads] number of threads must be between 1 and 1024");
+}
+
+TEST_CASE("a share runs whole chunks, each in one process of the team") {
+  class Member : public Alone {
+   public:
+    Member(int rank, int size) : rank_(rank), size_(size) {}
+    int rank() const override { return rank_; }
+    int size() const override { return size_; }
+
+   private:
+    int rank_, size_;
+  };
+  Parallel pool(3);
+  for (const int size : {1, 2, 5}) {
+    std::vector<int> owner(23, -1);
+    for (int rank = 0; rank < size; ++rank) {
+      const Member member(rank, size);
+      Parallel share = pool.share(member);
+      CHECK(share.threads() == 3);
+      share.for_chunks(23, 7, [&](Index begin, Index end, int) {
+        CHECK(begin % 7 == 0);
+        CHECK(end == std::min<Index>(begin + 7, 23));
+        for (Index i = begin; i < end; ++i) {
+          CHECK(owner[static_cast<std::size_t>(i)] == -1);
+          owner[static_cast<std::size_t>(i)] = rank;
+        }
+      });
+    }
+    CHECK(std::is_sorted(owner.begin(), owner.end()));
+    CHECK(owner.front() == 0);
+    CHECK(owner.back() == std::min(size, 4) - 1);
+  }
 }

@@ -13,23 +13,15 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "command/progress_text.h"
-#include "temporary_folder.h"
+#include "shell.h"
 
 using namespace svnet;
 
 namespace {
 
-struct Ran {
-  int status;
-  std::string out, err;
-};
-
 /// Runs the probe through the shell, with `prefix` before it.
 Ran run(const std::string& arguments, const std::string& prefix = "") {
-  const TemporaryFolder folder;
-  const std::string out = folder.path() / "out", err = folder.path() / "err";
-  const int status = std::system((prefix + " " COMMAND_PROBE " " + arguments + " >" + out + " 2>" + err).c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_contents(out), file_contents(err)};
+  return run_shell(".", prefix + " " COMMAND_PROBE " " + arguments);
 }
 
 /// The probe as a child whose output can be read while it runs: through a pipe, or a terminal for stdout and stderr.

@@ -1,25 +1,17 @@
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <sstream>
-
-#include <sys/wait.h>
 
 #include "io/image_file.h"
 #include "predict/half_sphere_plot.h"
 #include "predict/predictor.h"
+#include "shell.h"
 #include "small_model.h"
-#include "temporary_folder.h"
 #include "view/pose_grid.h"
 
 using namespace svnet;
 
 namespace {
-
-struct Ran {
-  int status;
-  std::string out, err;
-};
 
 /// A folder with a model and a picture, and the command run in it.
 class Workplace {
@@ -29,13 +21,7 @@ class Workplace {
     write_png(folder.path() / "top.png", small_picture());
   }
 
-  Ran run(const std::string& arguments) const {
-    const TemporaryFolder output;
-    const std::string out = output.path() / "out", err = output.path() / "err";
-    const int status = std::system(
-        ("cd " + folder.path().string() + " && " SVNET_PREDICT " " + arguments + " >" + out + " 2>" + err).c_str());
-    return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_contents(out), file_contents(err)};
-  }
+  Ran run(const std::string& arguments) const { return run_shell(folder.path(), SVNET_PREDICT " " + arguments); }
 
   TemporaryFolder folder;
 };

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <sstream>
-
-#include <sys/wait.h>
 
 #include "io/hdf5/hdf5_file.h"
 #include "nn/graph/keras_order.h"
@@ -53,12 +50,7 @@ Workplace::Workplace() {
 }
 
 Ran Workplace::run(const std::string& command) const {
-  const TemporaryFolder output;
-  const std::string out = output.path() / "out", err = output.path() / "err";
-  const int status = std::system(("cd '" + folder_.path().string() + "' && export PATH=" PROGRAMS ":$PATH && { " +
-                                  command + "; } >" + out + " 2>" + err)
-                                     .c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_contents(out), file_contents(err)};
+  return run_shell(folder_.path(), "export PATH=" PROGRAMS ":$PATH && { " + command + "; }");
 }
 
 std::string Workplace::output_of(const std::string& command) const {

@@ -3,15 +3,9 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.h"
+#include "shell.h"
 
 namespace svnet {
-
-/// What a command line printed, and its exit status.
-struct Ran {
-  int status;
-  std::string out, err;
-};
 
 /// A folder with whole inputs for every command, made once per process in a few hundred milliseconds:
 ///   data/            write_small_dataset: categories ball, cone, cube, ring, 2 objects of each, 4 views of each

@@ -8,6 +8,7 @@
 #include "models/backbone.h"
 #include "predict/predictor.h"
 #include "small_dataset.h"
+#include "train/scores_stage.h"
 
 using namespace svnet;
 
@@ -199,6 +200,48 @@ TEST_CASE("scores leave out held-out categories") {
     CHECK((scores.count[i] == 0) == held_out);
     CHECK(std::isnan(scores.scaled[i]) == held_out);
   }
+}
+
+TEST_CASE("scores go on from the snapshot of an interrupted run") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.scores.problems = 5000;
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  Run whole(config, dataset, temporary.path() / "whole", {});
+  whole.scores();
+
+  struct Stop {};
+  // The last step is reported before its snapshot is written: it is lost and done again.
+  const Messages stopping{.line = {}, .progress = [](std::string_view, Index done, Index total, double) {
+                            if (done == total) throw Stop{};
+                          }};
+  const auto path = temporary.path() / "run/scores.h5";
+  Log log;
+  Run run(config, dataset, temporary.path() / "run", log.messages);
+  CHECK_THROWS_AS(make_scores(path, dataset, whole.features("tiny_xception", ""), {false, false, false, true}, config,
+                              stopping, {.snapshot_seconds = 0}),
+                  Stop);
+  CHECK_FALSE(std::filesystem::exists(path));
+  REQUIRE(std::filesystem::exists(snapshot_path(path)));
+
+  SECTION("of the same scores") {
+    run.scores();
+    CHECK(log.has("resumed after "));
+    CHECK(file_sha256(path) == file_sha256(temporary.path() / "whole/scores.h5"));
+  }
+  SECTION("not of other scores") {
+    config.seed = 4;
+    Run(config, dataset, temporary.path() / "run", log.messages).scores();
+    CHECK_FALSE(log.has("resumed"));
+  }
+  SECTION("not of a damaged one") {
+    std::filesystem::resize_file(snapshot_path(path), 100);
+    run.scores();
+    CHECK(log.has("made again"));
+    CHECK(file_sha256(path) == file_sha256(temporary.path() / "whole/scores.h5"));
+  }
+  CHECK_FALSE(std::filesystem::exists(snapshot_path(path)));
 }
 
 TEST_CASE("a dry run leaves nothing behind") {

@@ -1,31 +1,17 @@
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include <sys/wait.h>
-
 #include "io/image_file.h"
 #include "io/view_dataset.h"
-#include "temporary_folder.h"
+#include "shell.h"
 
 using namespace svnet;
 
 namespace {
 
-struct Ran {
-  int status;
-  std::string out, err;
-};
-
-Ran run(const TemporaryFolder& folder, const std::string& command) {
-  const TemporaryFolder output;
-  const std::string out = output.path() / "out", err = output.path() / "err";
-  const int status =
-      std::system(("cd " + folder.path().string() + " && " + command + " >" + out + " 2>" + err).c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, file_contents(out), file_contents(err)};
-}
+Ran run(const TemporaryFolder& folder, const std::string& command) { return run_shell(folder.path(), command); }
 
 std::map<std::string, std::string> contents(const std::filesystem::path& root) {
   std::map<std::string, std::string> files;

@@ -1,6 +1,7 @@
 #include "command/command.h"
 
 #include <csignal>
+#include <ctime>
 #include <exception>
 #include <iostream>
 #include <new>
@@ -41,15 +42,16 @@ Command::Command(std::string name, const std::string& description, const std::st
   app_.footer(footer);
 }
 
-int Command::run(int argc, char** argv, const std::function<void(Console&)>& body) {
+int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team) {
   cap_openblas_from_environment(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, not the end of the process
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& answer) {
-    return parsed(answer);
+    return parsed(answer, team);
   }
-  Console console(quiet_, stderr_is_terminal());
+  Console console(team.first() ? (quiet_ ? Console::Voice::quiet : Console::Voice::full) : Console::Voice::mute,
+                  stderr_is_terminal());
   try {
     remember_interrupts();
     cap_from_environment();
@@ -59,31 +61,34 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     flush_results();
     return 0;
   } catch (const Interrupted&) {
-    return report(console, "interrupted", 130);
+    return report(console, "interrupted", 130, team);
   } catch (const UsageError& e) {
-    return report(console, usage_text(e.what()), 2);
+    return report(console, usage_text(e.what()), 2, team);
   } catch (const std::bad_alloc&) {
-    return report(console, "out of memory", 1);
+    return report(console, "out of memory", 1, team);
   } catch (const std::exception& e) {
-    return report(console, e.what(), 1);
+    return report(console, e.what(), 1, team);
   }
 }
 
-int Command::parsed(const CLI::ParseError& answer) {
-  Console console(false, stderr_is_terminal());
-  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2);
+int Command::parsed(const CLI::ParseError& answer, const Team& team) {
+  Console console(Console::Voice::full, stderr_is_terminal());
+  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, team);
+  if (!team.first()) return 0;
   app_.exit(answer, std::cout, std::cerr);
   try {
     flush_results();
     return 0;
   } catch (const Error& e) {
-    return report(console, e.what(), 1);
+    return report(console, e.what(), 1, team);
   }
 }
 
 std::string Command::usage_text(const std::string& message) const { return message + "; see " + name_ + " --help"; }
 
-int Command::report(Console& console, const std::string& message, int status) const {
+int Command::report(Console& console, const std::string& message, int status, const Team& team) const {
+  const timespec second{1, 0};
+  if (!team.first() && ::nanosleep(&second, nullptr) != 0) return status;  // ended by a signal
   console.error(name_ + ": " + message);
   return status;
 }

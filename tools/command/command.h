@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "base/team.h"
 #include "command/console.h"
 
 namespace svnet {
@@ -38,12 +39,14 @@ class Command {
 
   /// Parses, runs `body` and returns the exit status: 0 done, 1 failed (one line on stderr: what, where, what to do),
   /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA and --threads are in force when the body runs.
-  int run(int argc, char** argv, const std::function<void(Console&)>& body);
+  /// Of a team only the first process speaks. Others wait a second with an error: where the first one failed as well,
+  /// it ends them before.
+  int run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team = Alone::shared());
 
  private:
-  int parsed(const CLI::ParseError& answer);
+  int parsed(const CLI::ParseError& answer, const Team& team);
   std::string usage_text(const std::string& message) const;
-  int report(Console& console, const std::string& message, int status) const;
+  int report(Console& console, const std::string& message, int status, const Team& team) const;
 
   std::string name_;
   CLI::App app_;

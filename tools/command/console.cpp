@@ -38,7 +38,7 @@ class Console::LogFile {
   spdlog::sinks::basic_file_sink_st sink_;
 };
 
-Console::Console(bool quiet, bool terminal) : quiet_(quiet), terminal_(terminal) {
+Console::Console(Voice voice, bool terminal) : voice_(voice), terminal_(terminal) {
   messages_.line = [this](std::string_view text) { line(text); };
   messages_.progress = [this](std::string_view task, Index done, Index total, double seconds) {
     throw_if_interrupted();
@@ -51,6 +51,7 @@ Console::~Console() { erase_bar(); }
 void Console::line(std::string_view text) { print(without_control_characters(text)); }
 
 void Console::result(std::string_view text) {
+  if (voice_ == Voice::mute) return;
   erase_bar();
   std::size_t start = 0, end;
   do {  // line by line: a result may have many
@@ -72,6 +73,7 @@ void Console::error(std::string_view text) {
 }
 
 void Console::log_to(const std::filesystem::path& file) {
+  if (voice_ == Voice::mute) return;
   const std::filesystem::path folder = file.parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
@@ -98,7 +100,7 @@ void Console::progress(TaskState state) {
   if (!task_) last_plain_ = now;
   task_ = std::move(state);
   if (task_->finished()) return end_task();
-  if (terminal_ && !quiet_) {
+  if (terminal_ && voice_ == Voice::full) {
     std::cerr << '\r' << progress_bar(*task_, terminal_columns()) << "\x1b[K" << std::flush;
     bar_drawn_ = true;
   }
@@ -110,7 +112,7 @@ void Console::progress(TaskState state) {
 }
 
 void Console::print(std::string_view text) {
-  if (!quiet_) {
+  if (voice_ == Voice::full) {
     erase_bar();
     std::cerr << text << std::endl;
   }

@@ -12,11 +12,13 @@ namespace svnet {
 
 /// Where a command speaks: results on stdout; lines and progress on stderr, as a bar that is redrawn on a terminal, as
 /// timed lines without control characters elsewhere (at most one in ten seconds, and one at a task's end). Quiet leaves
-/// results and errors. A log file gets every line with its time. One thread at a time.
+/// results and errors, mute leaves errors and writes no log file. A log file gets every line with its time. One thread
+/// at a time.
 class Console {
  public:
+  enum class Voice { full, quiet, mute };
   /// `terminal`: stderr is a terminal that understands ANSI.
-  Console(bool quiet, bool terminal);
+  Console(Voice voice, bool terminal);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -44,7 +46,8 @@ class Console {
   void print(std::string_view text);
   void erase_bar();
 
-  bool quiet_, terminal_;
+  Voice voice_;
+  bool terminal_;
   bool bar_drawn_ = false;
   std::optional<TaskState> task_;  ///< in progress
   Clock::time_point last_plain_;

@@ -47,7 +47,10 @@ class Runner {
                               ops::separable_conv2d(x[0], get(node, "depthwise_kernel"), get(node, "pointwise_kernel"),
                                                     conv_options(l)));
             },
-            [&](const DenseLayer& l) { return finished(node, l, ops::dense(x[0], get(node, "kernel"))); },
+            [&](const DenseLayer& l) {
+              return finished(node, l,
+                              ops::dense(x[0], get(node, "kernel"), context_ == nullptr ? nullptr : context_->team));
+            },
             [&](const BatchNormLayer& l) { return batch_norm(node, l, x[0]); },
             [&](const ActivationLayer& l) { return activated(x[0], l.activation); },
             [&](const Pool2dLayer& l) {

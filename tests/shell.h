@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdlib>
+#include <string>
+
+#include <sys/wait.h>
+
+#include "temporary_folder.h"
+
+/// What a command line printed, and its exit status: negative, the signal that ended it.
+struct Ran {
+  int status;
+  std::string out, err;
+};
+
+/// Runs shell commands in `folder`; what they print lies elsewhere.
+inline Ran run_shell(const std::filesystem::path& folder, const std::string& commands) {
+  const TemporaryFolder output;
+  const std::string out = output.path() / "out", err = output.path() / "err";
+  const int status =
+      std::system(("cd '" + folder.string() + "' && { " + commands + "; } >" + out + " 2>" + err).c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status), file_contents(out), file_contents(err)};
+}

@@ -1,0 +1,100 @@
+#include <catch2/catch.hpp>
+
+#include "mpi/ranks.h"
+#include "workplace.h"
+
+using namespace svnet;
+
+namespace {
+
+constexpr const char* kTrain = "svnet-train config.yaml --threads 1 --set sv_net.width=300";
+
+/// How often `part` stands in `text`.
+int occurrences(const std::string& text, const std::string& part) {
+  int count = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+  return count;
+}
+
+/// Runs it as so many processes, or alone where there are none, and requires exit 0.
+std::string progress_of(const Workplace& place, int ranks, const std::string& command) {
+  const Ran ran = place.run(ranks == 0 ? command : with_ranks(ranks, command));
+  INFO(command << "\n" << ran.err);
+  REQUIRE(ran.status == 0);
+  return ran.err;
+}
+
+}  // namespace
+
+TEST_CASE("one, two and three processes extract the same features") {
+  if (!can_run_ranks()) return;
+  const Workplace place;  // 32 pictures: two batches, and a process without any
+  for (const int ranks : {1, 2, 3}) {
+    INFO(ranks << " processes");
+    progress_of(place, ranks,
+                "svnet-features --threads 1 --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
+                "--output ranks.h5");
+    CHECK(file_contents(place / "ranks.h5") == file_contents(place / "features.h5"));
+    std::filesystem::remove(place / "ranks.h5");
+  }
+}
+
+TEST_CASE("one, two and three processes train the same model") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  const std::string options = GENERATE("", " --set training.validation_categories=1 --set training.optimizer=sgd",
+                                       " --set training.fine_tune=last_block --set training.epochs=1");
+  INFO(options);
+  for (const int ranks : {0, 1, 2, 3}) {
+    INFO(ranks << " processes");
+    const std::string folder = "run" + std::to_string(ranks);
+    const std::string said = progress_of(place, ranks, kTrain + options + " --output " + folder);
+    CHECK(occurrences(said, "epoch 1/") == 1);
+    for (const char* file : {"features-tiny_xception.h5", "scores.h5", "checkpoint-last.safetensors",
+                             "checkpoint-best.safetensors", "metrics.csv", "model.safetensors"}) {
+      if (!std::filesystem::exists(place / "run0" / file)) continue;  // fine-tuning the scores' backbone needs fewer
+      INFO(file);
+      CHECK(file_contents(place / folder / file) == file_contents(place / "run0" / file));
+    }
+    CHECK(std::filesystem::exists(place / folder / "model.safetensors"));
+  }
+}
+
+TEST_CASE("processes go on together with what a run folder holds") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  progress_of(place, 0, std::string(kTrain) + " --output whole");
+  progress_of(place, 2, std::string(kTrain) + " --set training.epochs=2 --output run");
+  CHECK(occurrences(progress_of(place, 2, std::string(kTrain) + " --output run"), "reused") == 3);
+  std::filesystem::remove(place / "run/model.safetensors");
+  CHECK(occurrences(progress_of(place, 3, std::string(kTrain) + " --output run"), "goes on after epoch 2") == 1);
+  CHECK(file_contents(place / "run/model.safetensors") == file_contents(place / "whole/model.safetensors"));
+}
+
+TEST_CASE("an error of all processes is said once") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  const Ran ran = place.run(with_ranks(3, std::string(kTrain) + " --set dataset.root=nowhere"));
+  CHECK(ran.status != 0);
+  CHECK(occurrences(ran.err, "svnet-train: ") == 1);
+  CHECK_THAT(ran.err, Catch::Contains("nowhere: no such folder"));
+  const Ran usage = place.run(with_ranks(2, "svnet-train"));
+  CHECK(usage.status != 0);
+  CHECK_THAT(usage.err, Catch::Contains("svnet-train: CONFIG is required"));
+}
+
+TEST_CASE("processes keep to an instruction set") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  progress_of(place, 2, std::string(kTrain) + " --output run");
+  const Ran ran = place.run("SVNET_MAX_ISA=SSE4 " + with_ranks(2, std::string(kTrain) + " --output capped"));
+  INFO(ran.err);
+  REQUIRE(ran.status == 0);
+  CHECK(file_contents(place / "capped/model.safetensors") != file_contents(place / "run/model.safetensors"));
+}
+
+TEST_CASE("a dry run of several processes is one") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  CHECK(place.output_of(with_ranks(2, std::string(kTrain) + " --quiet --dry-run")) == "dry run: every stage works\n");
+}
