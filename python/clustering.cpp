@@ -35,16 +35,47 @@ Raises
 svnet.Error where shapes, types or numbers do not fit, and for features that are not finite.
 )";
 
-py::array_t<std::int64_t> ward(const py::object& given, const py::object& n_clusters) {
-  const GivenFeatures features("ward", given);
-  const Index k = count_of("ward", "n_clusters", n_clusters);
+constexpr const char* kAgglomerativeDoc = R"(agglomerative(features, n_clusters, linkage="ward")
+--
+
+Agglomerative clustering, the partition of scikit-learn's AgglomerativeClustering(n_clusters, linkage=linkage). Of
+equally near pairs of clusters the one whose first items come first is merged.
+
+Parameters
+----------
+features : (N, D) array of integers or floats, any strides
+n_clusters : int from 1 to N
+linkage : "ward", "average", "complete" or "single", of Euclidean distances
+
+Returns
+-------
+labels : (N,) int64, numbered from 0 in order of first appearance
+
+Raises
+------
+svnet.Error where shapes, types, numbers or names do not fit, and for features that are not finite.
+)";
+
+py::array_t<std::int64_t> agglomerated(const char* function, const py::object& given, const py::object& n_clusters,
+                                       Linkage linkage) {
+  const GivenFeatures features(function, given);
+  const Index k = count_of(function, "n_clusters", n_clusters);
   std::vector<std::int32_t> labels(static_cast<std::size_t>(features.rows()));
   {
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
-    Agglomerative(Linkage::ward, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
+    Agglomerative(linkage, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
   }
   return label_array(labels);
+}
+
+py::array_t<std::int64_t> ward(const py::object& features, const py::object& n_clusters) {
+  return agglomerated("ward", features, n_clusters, Linkage::ward);
+}
+
+py::array_t<std::int64_t> agglomerative(const py::object& features, const py::object& n_clusters,
+                                        const std::string& linkage) {
+  return agglomerated("agglomerative", features, n_clusters, linkage_named(linkage));
 }
 
 constexpr const char* kKMeansDoc = R"(kmeans(features, n_clusters, n_init=10, seed=0)
@@ -94,6 +125,8 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
 
 void bind_clustering(py::module_& module) {
   module.def("ward", ward, kWardDoc, py::arg("features"), py::arg("n_clusters"));
+  module.def("agglomerative", agglomerative, kAgglomerativeDoc, py::arg("features"), py::arg("n_clusters"),
+             py::arg("linkage") = "ward");
   module.def("kmeans", kmeans, kKMeansDoc, py::arg("features"), py::arg("n_clusters"), py::arg("n_init") = 10,
              py::arg("seed") = 0);
 }

@@ -22,6 +22,7 @@ __all__ = [
     "Model",
     "__version__",
     "adjusted_rand",
+    "agglomerative",
     "fowlkes_mallows",
     "fowlkes_mallows_individual",
     "kmeans",
@@ -59,6 +60,9 @@ class Model:
     def best_view(self, image: NDArray[np.uint8], angles_deg: ArrayLike) -> tuple[int, NDArray[np.float32]]: ...
 
 def adjusted_rand(true: ArrayLike, pred: ArrayLike) -> float: ...
+def agglomerative(
+    features: ArrayLike, n_clusters: SupportsIndex, linkage: Literal["ward", "average", "complete", "single"] = "ward"
+) -> NDArray[np.int64]: ...
 def fowlkes_mallows(true: ArrayLike, pred: ArrayLike) -> float: ...
 def fowlkes_mallows_individual(true: ArrayLike, pred: ArrayLike) -> NDArray[np.float64]: ...
 def kmeans(

@@ -14,6 +14,54 @@ def test_partition(cluster, k, expected):
     assert labels.dtype == np.int64 and labels.tolist() == expected
 
 
+LINKAGES = ["ward", "average", "complete", "single"]
+
+
+def plain_agglomeration(points, k, linkage):
+    """Lance and Williams, by the book."""
+    size = {i: 1 for i in range(len(points))}
+    apart = {
+        (i, j): float(np.linalg.norm(points[i] - points[j])) ** (2 if linkage == "ward" else 1)
+        for i in size
+        for j in size
+        if i < j
+    }
+    labels = list(range(len(points)))
+    while len(size) > k:
+        a, b = min(apart, key=apart.get)
+        joined = apart.pop((a, b))
+        for c in size:
+            if c in (a, b):
+                continue
+            to_a, to_b = apart[min(a, c), max(a, c)], apart.pop((min(b, c), max(b, c)))
+            na, nb, nc = size[a], size[b], size[c]
+            apart[min(a, c), max(a, c)] = {
+                "ward": ((na + nc) * to_a + (nb + nc) * to_b - nc * joined) / (na + nb + nc),
+                "average": (na * to_a + nb * to_b) / (na + nb),
+                "complete": max(to_a, to_b),
+                "single": min(to_a, to_b),
+            }[linkage]
+        size[a] += size.pop(b)
+        labels = [a if label == b else label for label in labels]
+    return [sorted(size).index(label) for label in labels]
+
+
+@pytest.mark.parametrize("linkage", LINKAGES)
+def test_every_linkage(linkage, random):
+    points = random.normal(size=(40, 3))
+    partitions = [svnet.agglomerative(points, k, linkage=linkage) for k in (1, 4, 9, 40)]
+    assert [p.tolist() for p in partitions] == [plain_agglomeration(points, k, linkage) for k in (1, 4, 9, 40)]
+    assert partitions[0].dtype == np.int64
+
+
+def test_linkages_differ_and_ward_is_the_default(random):
+    points = random.normal(size=(60, 2))
+    assert len({svnet.agglomerative(points, 6, linkage).tobytes() for linkage in LINKAGES}) == 4
+    assert (svnet.agglomerative(points, 6) == svnet.ward(points, 6)).all()
+    with pytest.raises(svnet.Error, match=".linkage. 'wards' is unknown, did you mean 'ward'?"):
+        svnet.agglomerative(points, 6, "wards")
+
+
 def test_inertia_is_the_sum_of_squared_distances_to_the_centres():
     labels, inertia = svnet.kmeans(POINTS, 3)
     assert isinstance(inertia, float) and inertia == 0.5 + 2.0
@@ -86,7 +134,7 @@ def test_number_of_threads_does_not_matter(n, random, threads):
     ],
 )
 def test_features_that_are_refused(features, message):
-    for cluster in (svnet.ward, svnet.kmeans):
+    for cluster in (svnet.ward, svnet.agglomerative, svnet.kmeans):
         with pytest.raises(svnet.Error, match=message):
             cluster(features, 1)
 
@@ -94,7 +142,7 @@ def test_features_that_are_refused(features, message):
 @pytest.mark.parametrize("k", [0, -1, 2.0, "2", None, 6, 2**64])
 def test_numbers_of_clusters_that_are_refused(k):
     message = "cannot make 6 clusters of 5 points" if k == 6 else "n_clusters is .*; expects a whole number from 1 to"
-    for cluster in (svnet.ward, svnet.kmeans):
+    for cluster in (svnet.ward, svnet.agglomerative, svnet.kmeans):
         with pytest.raises(svnet.Error, match=message):
             cluster(POINTS, k)
 
