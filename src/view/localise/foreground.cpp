@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
@@ -39,24 +40,57 @@ cv::Vec3f light_change(const cv::Mat3f& before, const cv::Mat3f& after) {
   return change;
 }
 
-/// The mean rise over 5x5 pixels that both pictures measured, without those on the other side of a step.
-cv::Mat1f smooth_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
-  cv::Mat1f rise(before.size(), 0);
+/// The mean of a depth picture over 9x9 pixels, without holes and those on the other side of a step.
+cv::Mat1f smooth_depth(const cv::Mat1f& depth) {
+  constexpr int kReach = 4;
+  constexpr float kStep_m = 0.008f;
+  cv::Mat1f middle, smooth(depth.size(), 0);
+  cv::medianBlur(depth, middle, 5);
+  for (int y = 0; y < depth.rows; ++y)
+    for (int x = 0; x < depth.cols; ++x) {
+      float sum = 0, count = 0;
+      for (int ny = std::max(0, y - kReach); ny <= std::min(depth.rows - 1, y + kReach); ++ny)
+        for (int nx = std::max(0, x - kReach); nx <= std::min(depth.cols - 1, x + kReach); ++nx)
+          if (depth(ny, nx) > 0 && std::abs(depth(ny, nx) - middle(y, x)) < kStep_m) sum += depth(ny, nx), ++count;
+      smooth(y, x) = count > 0 ? sum / count : middle(y, x);
+    }
+  return smooth;
+}
+
+/// The rise of each pixel that both pictures measured, or NaN.
+cv::Mat1f measured_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
+  const cv::Mat1f table = smooth_depth(before);
+  cv::Mat1f rise(before.size(), std::numeric_limits<float>::quiet_NaN());
   for (int y = 0; y < rise.rows; ++y)
     for (int x = 0; x < rise.cols; ++x)
-      if (before(y, x) > 0 && after(y, x) > 0) rise(y, x) = before(y, x) - after(y, x);
-  cv::Mat1f middle;
-  cv::medianBlur(rise, middle, 3);
+      if (table(y, x) > 0 && after(y, x) > 0) rise(y, x) = table(y, x) - after(y, x);
+  return rise;
+}
+
+/// The mean of a rise over the 9x9 pixels that have the pixel's own colour, up to the noise: along a thin part, or a
+/// shadow, but not across its edge. A hole has to be filled: the neighbours that rose and those that did not vote, and
+/// the mean is that of the larger party. `light` holds roots of linear light. 0 where nothing was measured.
+cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, float noise) {
+  constexpr int kReach = 4;
+  constexpr float kStep_m = 0.005f;
+  const float sharpness = 1 / (2 * 16 * noise * noise);
   cv::Mat1f smooth(rise.size(), 0);
-  for (int y = 2; y < rise.rows - 2; ++y)
-    for (int x = 2; x < rise.cols - 2; ++x) {
-      float sum = 0, count = 0;
-      for (int dy = -2; dy <= 2; ++dy)
-        for (int dx = -2; dx <= 2; ++dx)
-          if (before(y + dy, x + dx) > 0 && after(y + dy, x + dx) > 0 &&
-              std::abs(rise(y + dy, x + dx) - middle(y, x)) < 0.008f)
-            sum += rise(y + dy, x + dx), ++count;
-      smooth(y, x) = count > 0 ? sum / count : middle(y, x);
+  for (int y = 0; y < rise.rows; ++y)
+    for (int x = 0; x < rise.cols; ++x) {
+      const float own = rise(y, x);
+      std::array<float, 2> sum{}, count{};
+      for (int ny = std::max(0, y - kReach); ny <= std::min(rise.rows - 1, y + kReach); ++ny)
+        for (int nx = std::max(0, x - kReach); nx <= std::min(rise.cols - 1, x + kReach); ++nx) {
+          const float value = rise(ny, nx);
+          if (std::isnan(value) || std::abs(value - own) > kStep_m) continue;
+          const cv::Vec3f step = light(ny, nx) - light(y, x);
+          const float distance = step.dot(step) * sharpness;
+          const float weight = 1 / (1 + distance * distance);
+          const std::size_t party = std::isnan(own) && value > kStep_m ? 1 : 0;
+          sum[party] += weight * value, count[party] += weight;
+        }
+      const std::size_t party = count[1] > count[0] ? 1 : 0;
+      if (count[party] > 0) smooth(y, x) = sum[party] / count[party];
     }
   return smooth;
 }
@@ -65,22 +99,24 @@ cv::Mat1f smooth_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
 
 Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& background_depth_m, const cv::Mat3b& rgb,
                            const cv::Mat1f& depth_m) {
-  constexpr float kLeastDifference = 6, kRise_m = 0.004f, kShadowRise_m = 0.0014f;
-  constexpr float kShadowDarkest = 0.12f, kShadowTint = 1.35f;
+  constexpr float kSureDifference = 6, kLeastDifference = 3.5f, kSureRise_m = 0.004f, kLeastRise_m = 0.002f;
+  constexpr float kSureMeasured_m = 0.008f;  // by a single pixel
+  constexpr float kShadowRise_m = 0.0012f, kShadowDarkest = 0.12f, kShadowTint = 1.35f;
   constexpr double kSigma_px = 0.6;
   const cv::Mat3f before = linear(background_rgb, kSigma_px), after = linear(rgb, kSigma_px);
   const cv::Vec3f change = light_change(before, after);
   Foreground result;
-  result.rise_m = smooth_rise(background_depth_m, depth_m);
 
   // Shot noise grows with the root of the light: differences of roots have one size everywhere.
   result.difference.create(rgb.size());
+  cv::Mat3f roots(rgb.size());
   std::vector<float> sample;
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x) {
       float sum = 0;
       for (int c = 0; c < 3; ++c) {
-        const float step = std::sqrt(after(y, x)[c] / change[c]) - std::sqrt(before(y, x)[c]);
+        roots(y, x)[c] = std::sqrt(after(y, x)[c] / change[c]);
+        const float step = roots(y, x)[c] - std::sqrt(before(y, x)[c]);
         sum += step * step;
       }
       result.difference(y, x) = std::sqrt(sum);
@@ -88,28 +124,45 @@ Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& bac
     }
   const float noise = std::max(median(sample) / 1.54f, 0.002f);  // the median of the root of χ² of three is 1.54 σ
   result.difference /= noise;
+  const cv::Mat1f rise_m = measured_rise(background_depth_m, depth_m);
+  result.rise_m = smooth_rise(rise_m, roots, noise);
 
   // A blurred edge is where half of the step is reached: fainter pixels beside stronger ones are its skirt.
   constexpr float kSkirt = 0.4f;
   cv::Mat1f strongest;
   cv::dilate(result.difference, strongest, cv::Mat1b::ones(3, 3));
 
-  result.mask = cv::Mat1b(rgb.size(), 0);
+  // What is sure, and what is likely where it touches that.
+  cv::Mat1b likely(rgb.size(), 0), sure(rgb.size(), 0);
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x) {
-      const float rise = result.rise_m(y, x);
-      bool object = result.difference(y, x) > std::max(kLeastDifference, kSkirt * strongest(y, x));
-      if (object && rise < kShadowRise_m) {
+      const float rise = result.rise_m(y, x), difference = result.difference(y, x);
+      bool differs = difference > std::max(kLeastDifference, kSkirt * strongest(y, x));
+      if (differs && rise < kShadowRise_m) {
         float least = 1e9f, most = 0;
         for (int c = 0; c < 3; ++c) {
           const float ratio = (after(y, x)[c] + 2e-3f) / (change[c] * (before(y, x)[c] + 2e-3f));
           least = std::min(least, ratio);
           most = std::max(most, ratio);
         }
-        object = !(most < 1.1f && least > kShadowDarkest && most < kShadowTint * least);
+        differs = !(most < 1.1f && least > kShadowDarkest && most < kShadowTint * least);
       }
-      if (object || rise > kRise_m) result.mask(y, x) = 255;
+      if (differs || rise > kLeastRise_m) likely(y, x) = 255;
+      if ((differs && difference > kSureDifference) || rise > kSureRise_m || rise_m(y, x) > kSureMeasured_m)
+        likely(y, x) = sure(y, x) = 255;
     }
+  cv::Mat labels;
+  const int count = cv::connectedComponents(likely, labels, 8);
+  std::vector<int> sure_pixels(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < rgb.rows; ++y)
+    for (int x = 0; x < rgb.cols; ++x)
+      if (sure(y, x) != 0) ++sure_pixels[static_cast<std::size_t>(labels.at<int>(y, x))];
+  sure_pixels[0] = 0;
+  constexpr int kSpeck_px = 8;
+  result.mask = cv::Mat1b(rgb.size(), 0);
+  for (int y = 0; y < rgb.rows; ++y)
+    for (int x = 0; x < rgb.cols; ++x)
+      if (sure_pixels[static_cast<std::size_t>(labels.at<int>(y, x))] >= kSpeck_px) result.mask(y, x) = 255;
   return result;
 }
 

@@ -116,7 +116,10 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
     }
   check(!table.empty() && !top.empty(), "[localise] the depth pictures have no measurements where the object is");
   const double table_m = percentile(table, 0.5);
-  return {table_m, std::max(percentile(top, 0.992) - table_m, 0.0)};
+  // Almost the highest of all; of large objects too, whose highest part may be a hook or the end of a handle.
+  constexpr double kShare = 0.008, kMost_px = 12;
+  const double share = std::min(kShare, kMost_px / static_cast<double>(top.size()));
+  return {table_m, std::max(percentile(top, 1 - share) - table_m, 0.0)};
 }
 
 }  // namespace

@@ -33,8 +33,9 @@ struct LocalisedObject {
 };
 
 /// Finds the object. What changed in colour belongs to it, unless it only got darker and lies no higher than before (a
-/// shadow), and so does what rose by more than 4 mm. Slow changes of the light and sensor noise do not matter,
-/// nor do holes in depth. `camera_to_world` is the optical frame's pose in a world whose z axis is vertical.
+/// shadow), and so does what rose by more than 4 mm; beside that, what changed half as much. Slow changes of the light
+/// and sensor noise do not matter, nor do holes in depth. `camera_to_world` is the optical frame's pose in a world
+/// whose z axis is vertical.
 ///
 /// Throws Error where pictures do not fit the camera, nothing is found, the object is cut off by the border, or there
 /// are several objects.
