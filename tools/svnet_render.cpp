@@ -15,6 +15,7 @@
 #include "io/mesh_file.h"
 #include "view/render/catalogue.h"
 #include "view/render/collection.h"
+#include "view/render/contact_sheet.h"
 
 namespace {
 
@@ -124,10 +125,28 @@ Collected try_to_collect(const Mesh& mesh, Index pose, Index size, std::uint64_t
   return result;
 }
 
+/// The view, from the side, that shows most of the object.
+const Image& fullest_view(const Collected& pose) {
+  std::size_t best = 0;
+  std::ptrdiff_t most = -1;
+  for (std::size_t view = 0; view < pose.views.size(); ++view) {
+    const auto& mask = pose.views[view].shot.mask;
+    const auto pixels = static_cast<std::ptrdiff_t>(mask.size()) - std::count(mask.begin(), mask.end(), 0);
+    if (pose.posed.views[view].phi_deg < 90 && pixels > most) most = pixels, best = view;
+  }
+  return pose.views[best].picture.rgb;
+}
+
+/// What is kept of a pose: the manifest's entry, and a picture for the contact sheet.
+struct Entry {
+  Json manifest;
+  Image picture;
+};
+
 /// Collects a pose, again under another light and elsewhere where it fails, as a robot's keeper would: its views into
-/// `folder`, the rest into `extra`. The manifest's entry.
-Json collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
-             const fs::path& extra) {
+/// `folder`, the rest into `extra`.
+Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
+              const fs::path& extra) {
   constexpr std::uint32_t kTries = 16;
   std::optional<Collected> found;
   std::uint32_t tries = 0;
@@ -156,21 +175,27 @@ Json collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t
     names.push_back(name);
   }
   const LocalisedObject& object = found->object;
-  return Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
-              {"length_m", object.length_m},
-              {"width_m", object.width_m},
-              {"height_m", object.height_m},
-              {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
-              {"tries", tries},
-              {"views", names}};
+  return {Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
+               {"length_m", object.length_m},
+               {"width_m", object.width_m},
+               {"height_m", object.height_m},
+               {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
+               {"tries", tries},
+               {"views", names}},
+          fullest_view(*found)};
 }
 
 void render(const Options& options, Console& console) {
+  constexpr Index kSheetPictures = 15;  // of each category, so that the sheet fits a screen's width
+  constexpr Index kSheetCell_px = 96;
   FreshFolder folder(options.output);
   const std::vector<Source> sources = options.meshes.empty() ? sources_of_catalogue(options) : sources_in(options);
   const auto total = static_cast<Index>(sources.size()) * options.poses;
   check(total < 0x10000, "there are ", total, " objects and poses, more than 65535; take fewer");
-  std::vector<Json> entries(static_cast<std::size_t>(total));
+  std::vector<Index> place_in_category(sources.size(), 0);
+  for (std::size_t i = 1; i < sources.size(); ++i)
+    if (sources[i].category == sources[i - 1].category) place_in_category[i] = place_in_category[i - 1] + 1;
+  std::vector<Entry> entries(static_cast<std::size_t>(total));
   Progress progress(console.messages(), "poses", total);
   // A few poses of each thread between two reports. Each is a piece of work of its own, with its own random numbers.
   const Index block = 4 * Parallel::shared().threads();
@@ -183,8 +208,12 @@ void render(const Options& options, Console& console) {
       try {
         const Mesh mesh = source.file.empty() ? catalogue_object(source.category, source.design, options.seed)
                                               : read_mesh(source.file, options.metres_per_unit);
-        entries[static_cast<std::size_t>(number)] = collect(mesh, pose, options, static_cast<std::uint32_t>(number),
-                                                            folder.path() / where, folder.path() / "_extra" / where);
+        Entry& entry = entries[static_cast<std::size_t>(number)];
+        entry = collect(mesh, pose, options, static_cast<std::uint32_t>(number), folder.path() / where,
+                        folder.path() / "_extra" / where);
+        if (place_in_category[static_cast<std::size_t>(number / options.poses)] * options.poses + pose >=
+            kSheetPictures)
+          entry.picture = {};
       } catch (const Error& error) {
         if (source.file.empty()) fail(where.string(), ": ", error.what());
         const std::string text = error.what();
@@ -196,12 +225,17 @@ void render(const Options& options, Console& console) {
 
   Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options.seed}, {"size_px", options.size}};
   Index pictures = 0;
+  std::vector<ContactRow> sheet;
   for (Index number = 0; number < total; ++number) {
     const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
-    Json& entry = entries[static_cast<std::size_t>(number)];
-    pictures += static_cast<Index>(entry.at("views").size());
-    manifest["poses"][source.category][source.object][std::to_string(number % options.poses + 1)] = std::move(entry);
+    Entry& entry = entries[static_cast<std::size_t>(number)];
+    pictures += static_cast<Index>(entry.manifest.at("views").size());
+    manifest["poses"][source.category][source.object][std::to_string(number % options.poses + 1)] =
+        std::move(entry.manifest);
+    if (sheet.empty() || sheet.back().label != source.category) sheet.push_back({source.category, {}});
+    if (!entry.picture.rgb.empty()) sheet.back().pictures.push_back(std::move(entry.picture));
   }
+  write_png(folder.path() / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheetCell_px));
   write_text(folder.path() / "manifest.json", manifest.dump(1) + "\n");
   write_text(folder.path() / "_extra" / "overview_camera.json",
              camera_json({overview_camera(), overview_camera_to_world()}));
@@ -216,8 +250,8 @@ int main(int argc, char** argv) {
   Command command("svnet-render",
                   "Collects views of household objects and tools in simulation, as a robot with an RGB-D camera would: "
                   "each object rests on a table, is localised in an overview, and is seen from the paper's viewpoints. "
-                  "Writes CATEGORY/OBJECT/POSE/PHI_THETA.png, manifest.json, and under _extra/ the overviews, depth "
-                  "(16-bit PNG, millimetres) and masks. The same seed gives the same pictures.",
+                  "Writes CATEGORY/OBJECT/POSE/PHI_THETA.png, manifest.json, and under _extra/ a contact sheet, the "
+                  "overviews, depth (16-bit PNG, millimetres) and masks. The same seed gives the same pictures.",
                   "svnet-render --output runs/rendered\n"
                   "svnet-render --output runs/tools --categories hammer,wrench,pliers --objects 3 --size 160\n"
                   "svnet-render --output runs/mine --meshes meshes --unit 0.001");

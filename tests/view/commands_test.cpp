@@ -43,11 +43,12 @@ TEST_CASE("svnet-render writes a data set, the same for any number of threads") 
   const auto manifest = nlohmann::json::parse(files.at("manifest.json"));
   CHECK(manifest.at("poses").at("mug").at("1").at("2").at("views").size() ==
         static_cast<std::size_t>(dataset.poses[3].view_count));
-  for (const char* name :
-       {"_extra/mug/1/1/overview.png", "_extra/mug/1/1/overview_depth.png", "_extra/mug/1/1/90_90_mask.png",
-        "_extra/mug/1/1/90_90_depth.png", "_extra/overview_camera.json", "_extra/view_camera.json"})
+  for (const char* name : {"_extra/mug/1/1/overview.png", "_extra/mug/1/1/overview_depth.png",
+                           "_extra/mug/1/1/90_90_mask.png", "_extra/mug/1/1/90_90_depth.png",
+                           "_extra/overview_camera.json", "_extra/view_camera.json", "_extra/contact_sheet.png"})
     CHECK(files.count(name) == 1);
   CHECK(read_image(folder.path() / "one/mug/1/1/90_90.png").width == 32);
+  CHECK(read_image(folder.path() / "one/_extra/contact_sheet.png").height == 2 * 98 + 2);  // a line for each category
 
   const Ran again = run(folder, std::string(kRender) + "--output one");
   CHECK(again.status == 1);
