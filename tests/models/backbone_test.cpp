@@ -7,9 +7,11 @@
 #include "models/sv_net.h"
 #include "models/trained_graph.h"
 #include "nn/graph/run.h"
+#include "nn/numbers.h"
 #include "nn/runtime/folding.h"
 
 using namespace svnet;
+using test::relative_distance;
 
 namespace {
 
@@ -60,20 +62,6 @@ TEST_CASE("an unknown backbone or layer is named with its nearest neighbour") {
   CHECK_THROWS_WITH(random_backbone("mobilenet", "conv_pw_5_rely", 1),
                     Catch::Contains("did you mean 'conv_pw_5_relu'?"));
 }
-
-namespace {
-
-double relative_distance(const Tensor& actual, const Tensor& expected) {
-  double difference = 0, norm = 0;
-  for (Index i = 0; i < expected.size(); ++i) {
-    const double d = actual.data<float>()[i] - expected.data<float>()[i];
-    difference += d * d;
-    norm += static_cast<double>(expected.data<float>()[i]) * expected.data<float>()[i];
-  }
-  return std::sqrt(difference / norm);
-}
-
-}  // namespace
 
 TEST_CASE("folding batch norms and activations changes nothing but rounding") {
   const Graph graph = backbone_kind("tiny_xception").graph(64, false);

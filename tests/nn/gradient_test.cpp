@@ -39,18 +39,6 @@ std::vector<Tensor> gradients(const Function& function, const std::vector<Tensor
   return found;
 }
 
-/// ‖found − truth‖ / ‖truth‖, in f64.
-double relative_distance(const Tensor& found, const Tensor& truth) {
-  double difference = 0, norm = 0;
-  const Tensor wide = found.to(DType::f64);
-  for (Index i = 0; i < truth.size(); ++i) {
-    const double t = truth.data<double>()[i], d = wide.data<double>()[i] - t;
-    difference += d * d;
-    norm += t * t;
-  }
-  return std::sqrt(difference / norm);
-}
-
 }  // namespace
 
 TEST_CASE("gradients in f32 are those in f64 to 1e-5, relative L2") {

@@ -15,17 +15,6 @@ using namespace svnet::test;
 
 namespace {
 
-double relative_distance(const Tensor& actual, const Tensor& expected) {
-  REQUIRE(actual.shape() == expected.shape());
-  double difference = 0, norm = 0;
-  for (Index i = 0; i < expected.size(); ++i) {
-    const double d = actual.data<float>()[i] - expected.data<float>()[i];
-    difference += d * d;
-    norm += static_cast<double>(expected.data<float>()[i]) * expected.data<float>()[i];
-  }
-  return std::sqrt(difference / norm);
-}
-
 /// Parameters of which no bias, mean or variance is trivial.
 Parameters drawn(const Graph& graph) {
   Parameters parameters = initial_parameters(graph, 3);

@@ -43,6 +43,19 @@ bool same_bits(const Tensor& a, const Tensor& b) {
   });
 }
 
+double relative_distance(const Tensor& got, const Tensor& truth) {
+  check(got.shape() == truth.shape(), "[relative_distance] ", to_string(got.shape()), " and ",
+        to_string(truth.shape()));
+  const Tensor found = got.to(DType::f64), expected = truth.to(DType::f64);
+  double difference = 0, norm = 0;
+  for (Index i = 0; i < expected.size(); ++i) {
+    const double t = expected.data<double>()[i], d = found.data<double>()[i] - t;
+    difference += d * d;
+    norm += t * t;
+  }
+  return std::sqrt(difference / norm);
+}
+
 double error_in_epsilons(const Tensor& got, const Tensor& truth, const Tensor& magnitude) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (got.shape() != truth.shape() || got.shape() != magnitude.shape()) return kInfinity;

@@ -18,6 +18,9 @@ Tensor absolute(const Tensor& x);
 /// Whether shapes, element types and all bits are equal.
 bool same_bits(const Tensor& a, const Tensor& b);
 
+/// ‖got − truth‖ / ‖truth‖ of tensors of one shape, in f64.
+double relative_distance(const Tensor& got, const Tensor& truth);
+
 /// The largest |got − truth| / (ε · magnitude), ε of got's element type; truth and magnitude are f64. Infinite where
 /// shapes differ, a number is NaN, or a magnitude of 0 does not go with an exact result.
 double error_in_epsilons(const Tensor& got, const Tensor& truth, const Tensor& magnitude);
