@@ -1,6 +1,8 @@
-// svnet_paper_views FOLDER: a dataset of the paper's size, for timing svnet-score. Writes FOLDER/data, 24 categories of
-// 5 objects in 3 poses of 21 views whose files are no pictures (scoring never opens them as such), and
-// FOLDER/features.h5, 2048 numbers per view drawn around a centre of each category.
+// svnet_paper_views FOLDER [VIEWS]: a dataset of the paper's size, for timing svnet-score. Writes FOLDER/data, 24
+// categories of objects in 3 poses of 21 views, so many views in all (7560: 5 objects of each category), whose files
+// are no pictures (scoring never opens them as such), and FOLDER/features.h5, 2048 numbers per view drawn around a
+// centre of each category.
+#include <cstdlib>
 #include <fstream>
 #include <iostream>
 
@@ -14,20 +16,22 @@ namespace {
 
 constexpr Index kDimension = 2048;
 
-void write_data(const std::filesystem::path& root) {
-  for (int view = 0; view < 24 * 5 * 3; ++view) {
-    const auto folder = root / std::to_string(view / 15) / std::to_string(view / 3 % 5) / std::to_string(view % 3);
+void write_data(const std::filesystem::path& root, int views) {
+  for (int pose = 0, left = views; left > 0; ++pose) {
+    const int object = pose / 3;
+    const auto folder = root / std::to_string(object % 24) / std::to_string(object / 24) / std::to_string(pose % 3);
     std::filesystem::create_directories(folder);
-    int views = 0;
+    int room = std::min(left, 21);
+    left -= room;
     for (const int phi : {90, 45, 60, 75})
       for (const int theta : {90, 0, 45, 135, 180, 225, 315})
-        if ((phi < 90 || theta == 90) && views++ < 21)
-          std::ofstream(folder / (std::to_string(phi) + "_" + std::to_string(theta) + ".png")) << view << " " << views;
+        if ((phi < 90 || theta == 90) && room-- > 0)
+          std::ofstream(folder / (std::to_string(phi) + "_" + std::to_string(theta) + ".png")) << pose << " " << room;
   }
 }
 
-void write_paper_views(const std::filesystem::path& folder) {
-  write_data(folder / "data");
+void write_paper_views(const std::filesystem::path& folder, int views) {
+  write_data(folder / "data", views);
   const ViewDataset dataset = read_view_dataset(folder / "data");
   Features features{{.backbone = "random",
                      .output = "random",
@@ -60,12 +64,13 @@ void write_paper_views(const std::filesystem::path& folder) {
 }  // namespace svnet
 
 int main(int argc, char** argv) {
-  if (argc != 2) {
-    std::cerr << "usage: svnet_paper_views FOLDER\n";
+  const int views = argc > 2 ? std::atoi(argv[2]) : 7560;
+  if (argc < 2 || argc > 3 || views < 1) {
+    std::cerr << "usage: svnet_paper_views FOLDER [VIEWS]\n";
     return 2;
   }
   try {
-    svnet::write_paper_views(argv[1]);
+    svnet::write_paper_views(argv[1], views);
     return 0;
   } catch (const std::exception& error) {
     std::cerr << "svnet_paper_views: " << error.what() << std::endl;
