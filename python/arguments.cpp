@@ -123,6 +123,22 @@ std::vector<Pose> camera_poses(const char* function, const py::object& given) {
   return poses;
 }
 
+double number(const char* function, const char* argument, const py::object& given) {
+  const py::array array = any_array(function, argument, given, "a number");
+  check_numbers(function, argument, array);
+  check(array.ndim() == 0, "[", function, "] ", argument, " has shape ", shape_text(array), "; expects a number");
+  return *Array<double>(array).data();
+}
+
+std::array<double, 3> point(const char* function, const char* argument, const py::object& given) {
+  const py::array array = any_array(function, argument, given, "numbers (3)");
+  check_numbers(function, argument, array);
+  check(array.ndim() == 1 && array.size() == 3, "[", function, "] ", argument, " has shape ", shape_text(array),
+        "; expects (3,)");
+  const Array<double> values(array);
+  return {values.at(0), values.at(1), values.at(2)};
+}
+
 std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
   const auto refuse = [&] [[noreturn]] (const char* upper) {
     fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to ", upper);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -56,6 +57,12 @@ Image image(const char* function, const pybind11::object& given);
 /// Poses (M, 2), theta and phi in degrees, from any array-like of integers or floats; at least one, all in range.
 /// Throws Error for anything else, with the number of the pose.
 std::vector<Pose> camera_poses(const char* function, const pybind11::object& given);
+
+/// A Python or NumPy integer or float. Throws Error for anything else.
+double number(const char* function, const char* argument, const pybind11::object& given);
+
+/// Three of them, from any array-like (3,). Throws Error for anything else.
+std::array<double, 3> point(const char* function, const char* argument, const pybind11::object& given);
 
 /// A Python or NumPy integer in [lowest, 2^64). Throws Error for anything else.
 std::uint64_t whole_number(const char* function, const char* argument, const pybind11::object& given,

@@ -39,6 +39,7 @@ PYBIND11_MODULE(_svnet, module) {
   error.attr("__doc__") = kErrorDoc;
   module.attr("__version__") = svnet::kVersion;
   module.def("set_threads", set_threads, kSetThreadsDoc, py::arg("n"));
+  svnet::python::bind_camera_pose(module);
   svnet::python::bind_clustering(module);
   svnet::python::bind_cluster_metrics(module);
   svnet::python::bind_scores(module);

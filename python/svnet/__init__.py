@@ -8,6 +8,7 @@
     scores = svnet.semantic_scores(features, category, object, pose, min_samples=10000)
     model = svnet.Model.load("model.safetensors")             # what svnet-train wrote
     index, scores = model.best_view(top_image, [[0, 45], [90, 60]])  # (H, W, 3) uint8; theta, phi in degrees
+    camera_to_world = svnet.camera_pose(90, 60, radius=0.7, centre=(0, 0, 0.05), frame="optical")
 
 NumPy in, NumPy out. Features, labels and angles may be of any integer or float dtype and have any strides. Everything releases
 the GIL while it computes, and may be called from several threads. Results are the same bits for any number of threads.
@@ -21,6 +22,7 @@ from ._svnet import (
     __version__,
     adjusted_rand,
     agglomerative,
+    camera_pose,
     fowlkes_mallows,
     fowlkes_mallows_individual,
     kmeans,
@@ -38,6 +40,7 @@ __all__ = [
     "__version__",
     "adjusted_rand",
     "agglomerative",
+    "camera_pose",
     "fowlkes_mallows",
     "fowlkes_mallows_individual",
     "kmeans",

@@ -23,6 +23,7 @@ __all__ = [
     "__version__",
     "adjusted_rand",
     "agglomerative",
+    "camera_pose",
     "fowlkes_mallows",
     "fowlkes_mallows_individual",
     "kmeans",
@@ -63,6 +64,9 @@ def adjusted_rand(true: ArrayLike, pred: ArrayLike) -> float: ...
 def agglomerative(
     features: ArrayLike, n_clusters: SupportsIndex, linkage: Literal["ward", "average", "complete", "single"] = "ward"
 ) -> NDArray[np.int64]: ...
+def camera_pose(
+    theta_deg: float, phi_deg: float, radius: float, centre: ArrayLike, frame: Literal["paper", "optical"] = "paper"
+) -> NDArray[np.float64]: ...
 def fowlkes_mallows(true: ArrayLike, pred: ArrayLike) -> float: ...
 def fowlkes_mallows_individual(true: ArrayLike, pred: ArrayLike) -> NDArray[np.float64]: ...
 def kmeans(

@@ -1,0 +1,46 @@
+#include "arguments.h"
+#include "base/error.h"
+#include "bindings.h"
+#include "view/camera.h"
+
+namespace svnet::python {
+namespace {
+
+namespace py = pybind11;
+
+constexpr const char* kDoc = R"(camera_pose(theta_deg, phi_deg, radius, centre, frame="paper")
+--
+
+Camera to world, for a camera on the upper half-sphere of a radius around the centre, that looks at the centre.
+
+theta_deg, phi_deg : azimuth from the world's x axis and elevation above the table, in degrees; phi in [0, 90].
+radius : metres, positive. centre : (3,) array-like, metres; the world's z axis is vertical.
+frame : the camera's axes. "paper": z forward, x level and to the left of the picture, y upwards. "optical", ROS'
+REP-103: z forward, x right, y down.
+Returns (4, 4) float64, with which a point of the camera's frame is at camera_pose(...) @ [x, y, z, 1] in the world.
+Raises svnet.Error where the angles are out of range, lengths are not finite or not positive, or the frame is unknown.
+)";
+
+py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& phi_deg, const py::object& radius,
+                                const py::object& centre, const py::object& frame) {
+  constexpr const char* kFunction = "camera_pose";
+  const Pose pose{number(kFunction, "theta_deg", theta_deg), number(kFunction, "phi_deg", phi_deg)};
+  const double radius_m = number(kFunction, "radius", radius);
+  const auto [x, y, z] = point(kFunction, "centre", centre);
+  check(py::isinstance<py::str>(frame), "[", kFunction, "] frame is no str; expects \"paper\" or \"optical\"");
+  const Eigen::Matrix4d matrix =
+      svnet::camera_pose(pose, radius_m, {x, y, z}, camera_frame_named(frame.cast<std::string>())).matrix();
+  py::array_t<double> result({4, 4});
+  for (Eigen::Index row = 0; row < 4; ++row)
+    for (Eigen::Index column = 0; column < 4; ++column) result.mutable_at(row, column) = matrix(row, column);
+  return result;
+}
+
+}  // namespace
+
+void bind_camera_pose(py::module_& module) {
+  module.def("camera_pose", pose_matrix, kDoc, py::arg("theta_deg"), py::arg("phi_deg"), py::arg("radius"),
+             py::arg("centre"), py::arg("frame") = "paper");
+}
+
+}  // namespace svnet::python
