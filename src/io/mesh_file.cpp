@@ -3,6 +3,7 @@
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <fstream>
+#include <sstream>
 
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -52,6 +53,35 @@ Material material_of(const aiScene& scene, const aiMaterial& from, const fs::pat
   return material;
 }
 
+/// Assimp makes room for all that a PLY header promises, for hours where that is nonsense.
+void check_ply_header(const fs::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  std::string line;
+  if (!std::getline(file, line) || !line.starts_with("ply")) return;
+  const std::uintmax_t size = fs::file_size(path);
+  while (std::getline(file, line) && !line.starts_with("end_header")) {
+    std::istringstream words(line);
+    std::string element, name;
+    double count = 0;
+    if (words >> element >> name >> count && element == "element")
+      check(count <= static_cast<double>(size), path.string(), ": promises ", count, " of '", printable(name), "' in ",
+            size, " bytes; is the file incomplete?");
+  }
+}
+
+void check_corners(const aiScene& scene, const std::string& name) {
+  for (unsigned m = 0; m < scene.mNumMeshes; ++m) {
+    const aiMesh& part = *scene.mMeshes[m];
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+      const aiFace& face = part.mFaces[f];
+      check(face.mNumIndices > 0, name, ": face ", f, " of part ", m, " has no corners; is the file incomplete?");
+      for (unsigned k = 0; k < face.mNumIndices; ++k)
+        check(face.mIndices[k] < part.mNumVertices, name, ": face ", f, " of part ", m, " has a corner at point ",
+              face.mIndices[k], " of ", part.mNumVertices);
+    }
+  }
+}
+
 }  // namespace
 
 Mesh read_mesh(const fs::path& path, double metres_per_unit) {
@@ -59,10 +89,17 @@ Mesh read_mesh(const fs::path& path, double metres_per_unit) {
   const std::string name = path.string();
   check(std::ifstream(path, std::ios::binary).good() && !fs::is_directory(path), name,
         ": cannot be read; expected a mesh (OBJ, PLY, STL or GLB)");
+  check_ply_header(path);
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
-  const aiScene* scene = importer.ReadFile(name, aiProcess_Triangulate | aiProcess_PreTransformVertices |
-                                                     aiProcess_SortByPType | aiProcess_JoinIdenticalVertices);
+  // One step after the other: Debian's Assimp aborts where it has to triangulate faces of fewer than three corners, and
+  // trusts the corners that a file names.
+  const aiScene* scene = importer.ReadFile(name, 0);
+  if (scene != nullptr) check_corners(*scene, name);
+  for (const unsigned steps : {static_cast<unsigned>(aiProcess_ValidateDataStructure | aiProcess_SortByPType),
+                               static_cast<unsigned>(aiProcess_Triangulate | aiProcess_PreTransformVertices |
+                                                     aiProcess_JoinIdenticalVertices)})
+    if (scene != nullptr) scene = importer.ApplyPostProcessing(steps);
   check(scene != nullptr, name, ": is no mesh that can be read: ", printable(importer.GetErrorString()));
   Mesh mesh;
   for (unsigned i = 0; i < scene->mNumMaterials; ++i)

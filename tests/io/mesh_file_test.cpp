@@ -1,9 +1,14 @@
 #include "io/mesh_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <cstring>
+#include <tuple>
 
 #include "io/image_file.h"
 #include "temporary_folder.h"
+#include "view/render/texture.h"
 
 using namespace svnet;
 
@@ -18,6 +23,52 @@ constexpr const char* kStl =
 constexpr const char* kPly =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
     "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+
+template <class Number>
+std::string bytes(const std::vector<Number>& numbers) {
+  std::string result(numbers.size() * sizeof(Number), '\0');
+  std::memcpy(result.data(), numbers.data(), result.size());
+  return result;
+}
+
+/// A piece of a binary glTF file: its length, its kind, its contents filled up to a multiple of 4.
+std::string glb_chunk(const char* kind, std::string contents, char filler) {
+  while (contents.size() % 4 != 0) contents += filler;
+  return bytes<std::uint32_t>({static_cast<std::uint32_t>(contents.size())}) + std::string(kind, 4) + contents;
+}
+
+/// A binary glTF file (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): a triangle whose material takes its
+/// colour from `picture`, which is embedded.
+std::string glb(const std::string& picture, const char* mime_type) {
+  const std::string points = bytes<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}), uv = bytes<float>({0, 0, 1, 0, 0, 1}),
+                    corners = bytes<std::uint16_t>({0, 1, 2, 0});
+  const auto view = [](std::size_t offset, std::size_t length) {
+    return R"({"buffer": 0, "byteOffset": )" + std::to_string(offset) + R"(, "byteLength": )" + std::to_string(length) +
+           "}";
+  };
+  const std::string binary = points + uv + corners + picture;
+  const std::string json =
+      R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
+    "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
+    "textures": [{"source": 0}], "images": [{"bufferView": 3, "mimeType": ")" +
+      std::string(mime_type) + R"("}],
+    "accessors": [
+      {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [2, 2, 0]},
+      {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
+      {"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"}],
+    "bufferViews": [)" +
+      view(0, 36) + "," + view(36, 24) + "," + view(60, 6) + "," + view(68, picture.size()) +
+      R"(], "buffers": [{"byteLength": )" + std::to_string(binary.size()) + "}]}";
+  const std::string chunks = glb_chunk("JSON", json, ' ') + glb_chunk(std::string("BIN\0", 4).c_str(), binary, '\0');
+  return "glTF" + bytes<std::uint32_t>({2, static_cast<std::uint32_t>(12 + chunks.size())}) + chunks;
+}
+
+/// The PNG file of a picture with a red pixel above a green one.
+std::string small_png(const TemporaryFolder& folder) {
+  write_png(folder.path() / "small.png", {2, 1, {255, 0, 0, 0, 255, 0}});
+  return file_contents(folder.path() / "small.png");
+}
 
 std::string refusal(const std::filesystem::path& path) {
   try {
@@ -71,4 +122,58 @@ TEST_CASE("meshes that cannot be read get one line that names them") {
   const std::string text = kPly;
   CHECK_THAT(refusal(folder.write("f.ply", text.substr(0, text.find("1 0 0")) + "nan 0 0\n0 1 0\n3 0 1 2\n")),
              Catch::StartsWith(in("f.ply") + ": "));
+}
+
+TEST_CASE("a picture inside a GLB is its texture, the right way up") {
+  const TemporaryFolder folder;
+  const Mesh mesh = read_mesh(folder.write("a.glb", glb(small_png(folder), "image/png")));
+  REQUIRE(mesh.triangles.size() == 1);
+  const Material& material = mesh.materials[static_cast<std::size_t>(mesh.triangles[0].material)];
+  CHECK(material.texture == Texture::picture);
+  REQUIRE(mesh.pictures.size() == 1);
+  CHECK(mesh.pictures[0].height == 2);
+  // glTF's v points downwards: the corners with v = 0 are at the upper, red pixel.
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 corner = mesh.points[mesh.triangles[0].corner[k]];
+    const Vec3 colour =
+        surface_colour(material, corner, mesh.uv[0][k] + Vec2(0.01f, corner.y() > 1 ? 0.01f : -0.01f), mesh.pictures);
+    CHECK(colour.isApprox(corner.y() > 1 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)));
+  }
+}
+
+TEST_CASE("damaged meshes and textures get one line that says where and what") {
+  const TemporaryFolder folder;
+  const std::string png = small_png(folder), whole = glb(png, "image/png"), ply = kPly, stl = kStl;
+  std::string long_view = whole;
+  long_view.replace(long_view.find("\"count\": 3"), 10, "\"count\": 9");
+  std::string stranger = whole;
+  stranger.replace(stranger.find("\"material\": 0"), 13, "\"material\": 7");
+  // Name, contents, what the line must have.
+  const std::vector<std::tuple<const char*, std::string, const char*>> cases{
+      {"empty.obj", "", ""},
+      {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ""},
+      {"beyond.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", ""},
+      {"words.obj", "v a b c\nf x y z\n", ""},
+      {"short.ply", ply.substr(0, ply.find("1 0 0")), ""},
+      {"many.ply", std::string(ply).replace(ply.find("vertex 3"), 8, "vertex 999999999"), ""},
+      {"beyond.ply", std::string(ply).replace(ply.find("3 0 1 2"), 7, "3 0 1 7"), ""},
+      {"short.stl", std::string(80, ' ') + bytes<std::uint32_t>({1000}) + "facet", ""},
+      {"infinite.stl", std::string(stl).replace(stl.find("vertex 1"), 8, "vertex inf"), "not finite"},
+      {"short.glb", whole.substr(0, whole.size() / 2), ""},
+      {"header.glb", whole.substr(0, 12), ""},
+      {"version.glb", "glTF" + bytes<std::uint32_t>({9, 12}), ""},
+      {"json.glb", "glTF" + bytes<std::uint32_t>({2, 24}) + glb_chunk("JSON", "{{{", ' '), ""},
+      {"accessor.glb", long_view, ""},
+      {"material.glb", stranger, ""},
+      {"text.glb", glb("no picture", "image/png"), "is neither a PNG nor a JPEG picture"},
+      {"cut.glb", glb(png.substr(0, png.size() - 20), "image/png"), "texture"},
+      {"jpeg.glb", glb("\xff\xd8\xff\xe0 no more", "image/jpeg"), "texture"}};
+  for (const auto& [name, contents, part] : cases) {
+    INFO(name);
+    const std::string message = refusal(folder.write(name, contents));
+    CHECK_THAT(message, Catch::StartsWith((folder.path() / name).string() + ": "));
+    CHECK_THAT(message, Catch::Contains(part));
+    CHECK(std::all_of(message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) >= ' '; }));
+    CHECK(message.size() < 400);
+  }
 }
