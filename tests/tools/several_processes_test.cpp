@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include "base/cpu.h"
 #include "mpi/ranks.h"
 #include "workplace.h"
 
@@ -14,6 +15,12 @@ int occurrences(const std::string& text, const std::string& part) {
   int count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
   return count;
+}
+
+bool has_more_than_sse4() {
+  const bool more = instruction_sets().front() != "SSE4" && instruction_sets().size() > 1;
+  if (!more) WARN("skipped: there is no better instruction set than the one to keep to");
+  return more;
 }
 
 /// Runs it as so many processes, or alone where there are none, and requires exit 0.
@@ -83,8 +90,28 @@ TEST_CASE("an error of all processes is said once") {
   CHECK_THAT(usage.err, Catch::Contains("svnet-train: CONFIG is required"));
 }
 
-TEST_CASE("processes keep to an instruction set") {
+TEST_CASE("an error of one process is said by it and ends all") {
   if (!can_run_ranks()) return;
+  const Workplace place;
+  const std::string train = std::string(kTrain) + " --set training.epochs=1000000 --output run";
+  const Ran ran = place.run(with_ranks(1, train + " --quiet : -n 1 " + train + " --set dataset.root=nowhere"));
+  CHECK(ran.status != 0);
+  CHECK(occurrences(ran.err, "svnet-train: ") == 1);
+  CHECK_THAT(ran.err, Catch::Contains("nowhere: no such folder"));
+}
+
+TEST_CASE("processes that come to different parameters are told so") {
+  if (!can_run_ranks() || !has_more_than_sse4()) return;
+  const Workplace place;
+  const std::string train = std::string(kTrain) + " --quiet --output run";
+  const Ran ran = place.run(with_ranks(1, train + " : -n 1 env SVNET_MAX_ISA=SSE4 " + train));
+  CHECK(ran.status != 0);
+  CHECK_THAT(ran.err, Catch::Contains("process 1 has other parameters than process 0 after epoch 1; processes must run "
+                                      "on processors of one kind"));
+}
+
+TEST_CASE("processes keep to an instruction set") {
+  if (!can_run_ranks() || !has_more_than_sse4()) return;
   const Workplace place;
   progress_of(place, 2, std::string(kTrain) + " --output run");
   const Ran ran = place.run("SVNET_MAX_ISA=SSE4 " + with_ranks(2, std::string(kTrain) + " --output capped"));

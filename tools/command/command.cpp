@@ -61,6 +61,7 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     flush_results();
     return 0;
   } catch (const Interrupted&) {
+    if (team.size() > 1) return 130;  // by the launcher, which says why
     return report(console, "interrupted", 130, team);
   } catch (const UsageError& e) {
     return report(console, usage_text(e.what()), 2, team);
