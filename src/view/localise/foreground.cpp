@@ -44,10 +44,15 @@ cv::Vec3f light_change(const cv::Mat3f& before, const cv::Mat3f& after) {
 cv::Mat1f smooth_depth(const cv::Mat1f& depth) {
   constexpr int kReach = 4;
   constexpr float kStep_m = 0.008f;
-  cv::Mat1f middle, smooth(depth.size(), 0);
+  const cv::Size window(2 * kReach + 1, 2 * kReach + 1);
+  cv::Mat1f middle, sums, counts, smooth(depth.size(), 0);
   cv::medianBlur(depth, middle, 5);
+  cv::boxFilter(depth, sums, CV_32F, window, {-1, -1}, false, cv::BORDER_REPLICATE);
+  cv::boxFilter(cv::Mat1f((depth > 0) / 255), counts, CV_32F, window, {-1, -1}, false, cv::BORDER_REPLICATE);
   for (int y = 0; y < depth.rows; ++y)
     for (int x = 0; x < depth.cols; ++x) {
+      smooth(y, x) = counts(y, x) > 0 ? sums(y, x) / counts(y, x) : 0;
+      if (std::abs(smooth(y, x) - middle(y, x)) < kStep_m / 8) continue;  // no step here
       float sum = 0, count = 0;
       for (int ny = std::max(0, y - kReach); ny <= std::min(depth.rows - 1, y + kReach); ++ny)
         for (int nx = std::max(0, x - kReach); nx <= std::min(depth.cols - 1, x + kReach); ++nx)
@@ -69,14 +74,20 @@ cv::Mat1f measured_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
 
 /// The mean of a rise over the 9x9 pixels that have the pixel's own colour, up to the noise: along a thin part, or a
 /// shadow, but not across its edge. A hole has to be filled: the neighbours that rose and those that did not vote, and
-/// the mean is that of the larger party. `light` holds roots of linear light. 0 where nothing was measured.
-cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, float noise) {
+/// the mean is that of the larger party. `light` holds roots of linear light. 0 where nothing was measured, and where
+/// neither colour (`difference`) nor depth changed.
+cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, const cv::Mat1f& difference, float noise) {
   constexpr int kReach = 4;
+  constexpr float kSameDifference = 3, kSameRise_m = 0.001f;
+  cv::Mat1f nearby = rise.clone();
+  cv::patchNaNs(nearby, 0);
+  cv::blur(nearby, nearby, {5, 5});
   constexpr float kStep_m = 0.005f;
   const float sharpness = 1 / (2 * 16 * noise * noise);
   cv::Mat1f smooth(rise.size(), 0);
   for (int y = 0; y < rise.rows; ++y)
     for (int x = 0; x < rise.cols; ++x) {
+      if (difference(y, x) < kSameDifference && std::abs(nearby(y, x)) < kSameRise_m) continue;
       const float own = rise(y, x);
       std::array<float, 2> sum{}, count{};
       for (int ny = std::max(0, y - kReach); ny <= std::min(rise.rows - 1, y + kReach); ++ny)
@@ -125,7 +136,7 @@ Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& bac
   const float noise = std::max(median(sample) / 1.54f, 0.002f);  // the median of the root of χ² of three is 1.54 σ
   result.difference /= noise;
   const cv::Mat1f rise_m = measured_rise(background_depth_m, depth_m);
-  result.rise_m = smooth_rise(rise_m, roots, noise);
+  result.rise_m = smooth_rise(rise_m, roots, result.difference, noise);
 
   // A blurred edge is where half of the step is reached: fainter pixels beside stronger ones are its skirt.
   constexpr float kSkirt = 0.4f;
