@@ -61,6 +61,11 @@ void check_depthwise(const Shape& image, Index multiplier, const WindowOptions& 
   CHECK(error_in_epsilons(dx, truth.dx, size.dx) <= 4);
   kernels::depthwise_weight_gradient(parallel, s, x.data<T>(), dy.data<T>(), dw.data<T>());
   CHECK(error_in_epsilons(dw, truth.dw, size.dw) <= 4);
+  dx = Tensor::full(image, 7, kDType<T>), dw = Tensor::full(w.shape(), 7, kDType<T>);
+  kernels::depthwise_input_gradient_reference(parallel, s, dy.data<T>(), w.data<T>(), dx.data<T>());
+  CHECK(error_in_epsilons(dx, truth.dx, size.dx) <= 4);
+  kernels::depthwise_weight_gradient_reference(parallel, s, x.data<T>(), dy.data<T>(), dw.data<T>());
+  CHECK(error_in_epsilons(dw, truth.dw, size.dw) <= 4);
 }
 
 }  // namespace

@@ -1,6 +1,3 @@
-#include <algorithm>
-#include <vector>
-
 #include "nn/kernels/depthwise/depthwise.h"
 
 namespace svnet::kernels {
@@ -44,7 +41,7 @@ void depthwise_reference(Parallel& parallel, const DepthwiseShape& s, const T* x
 }
 
 template <class T>
-void depthwise_input_gradient(Parallel& parallel, const DepthwiseShape& s, const T* dy, const T* w, T* dx) {
+void depthwise_input_gradient_reference(Parallel& parallel, const DepthwiseShape& s, const T* dy, const T* w, T* dx) {
   const Window& win = s.window;
   parallel.for_chunks(win.n, 1, [&](Index image, Index, int) {
     std::fill_n(dx + image * win.h * win.w * win.c, win.h * win.w * win.c, T{0});
@@ -58,30 +55,20 @@ void depthwise_input_gradient(Parallel& parallel, const DepthwiseShape& s, const
 }
 
 template <class T>
-void depthwise_weight_gradient(Parallel& parallel, const DepthwiseShape& s, const T* x, const T* dy, T* dw) {
-  const Window& win = s.window;
-  const Index size = win.kh * win.kw * win.c * s.multiplier, rows = win.n * win.oh;
-  // Partial sums over fixed runs of rows, added in order.
-  const Index run = std::max<Index>(8, (rows + 63) / 64), runs = (rows + run - 1) / run;
-  std::vector<T> partial(static_cast<std::size_t>(runs * size), T{0});
-  parallel.for_chunks(rows, run, [&](Index begin, Index end, int) {
-    T* sum = partial.data() + begin / run * size;
-    for (Index row = begin; row < end; ++row)
-      for_taps(s, row, [&](Index at_x, Index at_y, Index at_w) {
-        for (Index c = 0; c < win.c; ++c)
-          for (Index m = 0; m < s.multiplier; ++m)
-            sum[at_w + c * s.multiplier + m] += x[at_x + c] * dy[at_y + c * s.multiplier + m];
-      });
+void depthwise_weight_gradient_reference(Parallel& parallel, const DepthwiseShape& s, const T* x, const T* dy, T* dw) {
+  sum_over_rows(parallel, s, dw, [&](Index row, T* sum) {
+    for_taps(s, row, [&](Index at_x, Index at_y, Index at_w) {
+      for (Index c = 0; c < s.window.c; ++c)
+        for (Index m = 0; m < s.multiplier; ++m)
+          sum[at_w + c * s.multiplier + m] += x[at_x + c] * dy[at_y + c * s.multiplier + m];
+    });
   });
-  std::fill_n(dw, size, T{0});
-  for (Index r = 0; r < runs; ++r)
-    for (Index i = 0; i < size; ++i) dw[i] += partial[static_cast<std::size_t>(r * size + i)];
 }
 
 #define SVNET_INSTANTIATE(T)                                                                                          \
   template void depthwise_reference<T>(Parallel&, const DepthwiseShape&, const T*, const T*, T*, const Epilogue<T>&); \
-  template void depthwise_input_gradient<T>(Parallel&, const DepthwiseShape&, const T*, const T*, T*);                \
-  template void depthwise_weight_gradient<T>(Parallel&, const DepthwiseShape&, const T*, const T*, T*);
+  template void depthwise_input_gradient_reference<T>(Parallel&, const DepthwiseShape&, const T*, const T*, T*);      \
+  template void depthwise_weight_gradient_reference<T>(Parallel&, const DepthwiseShape&, const T*, const T*, T*);
 SVNET_INSTANTIATE(float)
 SVNET_INSTANTIATE(double)
 #undef SVNET_INSTANTIATE

@@ -1,9 +1,13 @@
 #include "nn/kernels/pool/pool.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace svnet::kernels {
 namespace {
+
+/// Channels that are compared at once.
+constexpr Index kChannels = 32;
 
 /// The part of output position p's window that lies inside the image.
 struct Inside {
@@ -25,22 +29,46 @@ void for_pixels(const Window& win, const Inside& part, Body&& body) {
     for (Index w = part.w0; w < part.w1; ++w) body(((part.n * win.h + h) * win.w + w) * win.c);
 }
 
+/// The largest of a few channels over a window's pixels and where it lies, without a branch, so that it is vectorised.
+/// The first among equals; a NaN is larger than any number.
+template <class T>
+void max_of_channels(const Window& win, const Inside& part, const T* x, Index first, Index count, T* y,
+                     std::int64_t* source) {
+  T best[kChannels];
+  std::int32_t at[kChannels];  // number of the pixel in the part
+  std::fill_n(best, count, -std::numeric_limits<T>::infinity());
+  std::fill_n(at, count, 0);
+  std::int32_t number = 0;
+  for_pixels(win, part, [&](Index pixel) {
+    const T* values = x + pixel + first;
+    for (Index c = 0; c < count; ++c) {
+      const bool larger = values[c] > best[c] || values[c] != values[c];
+      best[c] = larger ? values[c] : best[c];
+      at[c] = larger ? number : at[c];
+    }
+    ++number;
+  });
+  const Index width = part.w1 - part.w0, corner = ((part.n * win.h + part.h0) * win.w + part.w0) * win.c + first;
+  for (Index c = 0; c < count; ++c) {
+    y[c] = best[c];
+    source[c] = corner + (at[c] / width * win.w + at[c] % width) * win.c + c;
+  }
+}
+
 }  // namespace
 
 template <class T>
 void max_pool(Parallel& parallel, const Window& win, const T* x, T* y, std::int64_t* source) {
   parallel.for_chunks(win.positions(), 16, [&](Index begin, Index end, int) {
     for (Index p = begin; p < end; ++p) {
-      T* to = y + p * win.c;
-      std::int64_t* from = source + p * win.c;
-      std::fill_n(to, win.c, T{0});
-      std::fill_n(from, win.c, std::int64_t{-1});
-      for_pixels(win, inside(win, p), [&](Index pixel) {
-        for (Index c = 0; c < win.c; ++c) {
-          const T value = x[pixel + c];
-          if (from[c] < 0 || value > to[c] || value != value) to[c] = value, from[c] = pixel + c;
-        }
-      });
+      const Inside part = inside(win, p);
+      if (part.count() == 0) {
+        std::fill_n(y + p * win.c, win.c, T{0});
+        std::fill_n(source + p * win.c, win.c, std::int64_t{-1});
+        continue;
+      }
+      for (Index c = 0; c < win.c; c += kChannels)
+        max_of_channels(win, part, x, c, std::min(kChannels, win.c - c), y + p * win.c + c, source + p * win.c + c);
     }
   });
 }
