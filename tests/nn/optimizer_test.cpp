@@ -133,4 +133,21 @@ TEST_CASE("learning-rate schedules") {
   CHECK(cosine.at(4) == Approx(1));
   CHECK(cosine.at(8) == Approx(0).margin(1e-15));
   CHECK(cosine.at(9) == Approx(0).margin(1e-15));
+  const Schedule warm{.kind = Schedule::Kind::cosine, .base = 2, .total = 8, .warm_up = 3};
+  CHECK(warm.at(0) == Approx(0.5));
+  CHECK(warm.at(2) == Approx(1.5));
+  CHECK(warm.at(3) == Approx(2));
+  CHECK(warm.at(7) == Approx(1));
+  CHECK(warm.at(11) == Approx(0).margin(1e-15));
+}
+
+TEST_CASE("weight decay shrinks kernels alone, before the step and by the learning rate") {
+  const Tensor kernel = Tensor::full({2, 3}, 2).as_parameter(), bias = Tensor::full({3}, 2).as_parameter();
+  const auto optimizer = adam({kernel, bias}, {.weight_decay = 0.1});
+  autograd::GradientMap gradients;  // both receive the same gradient
+  gradients.add(*kernel.node(), Tensor::full({2, 3}, 1));
+  gradients.add(*bias.node(), Tensor::full({3}, 1));
+  optimizer->step(gradients, 0.5);
+  CHECK(bias.values<float>()[0] == Approx(1.5));  // Adam's first step is the rate
+  CHECK(kernel.values<float>()[0] == Approx(2 * 0.95 - 0.5));
 }

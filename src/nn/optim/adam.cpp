@@ -26,6 +26,7 @@ class Adam : public Optimizer {
         .beta1 = options_.beta1,
         .beta2 = options_.beta2,
         .epsilon = options_.epsilon};
+    if (options_.weight_decay > 0) decay(1 - learning_rate * options_.weight_decay);
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       if (const auto* p = gradients.product_of(parameters_[i]); p != nullptr && p->x.dtype() == DType::f32) {
         kernels::adam_product(Parallel::shared(), step, {p->x.dim(0), p->x.dim(1), p->dy.dim(1)}, p->x.data<float>(),
@@ -49,6 +50,15 @@ class Adam : public Optimizer {
   }
 
  private:
+  void decay(double kept) {
+    for (Tensor& parameter : parameters_) {
+      if (parameter.rank() < 2) continue;
+      with_dtype(parameter.dtype(), [&]<class T>() {
+        for (Index i = 0; i < parameter.size(); ++i) parameter.data<T>()[i] *= static_cast<T>(kept);
+      });
+    }
+  }
+
   std::vector<Tensor> parameters_, first_, second_;
   AdamOptions options_;
 };

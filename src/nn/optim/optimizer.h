@@ -24,8 +24,10 @@ class Optimizer {
 
 /// Adam in the "ε̂" form of Kingma and Ba (2015, end of section 2), as Keras has it:
 ///   m ← β₁m + (1 − β₁)g,  v ← β₂v + (1 − β₂)g²,  θ ← θ − rate · √(1 − β₂ᵗ) / (1 − β₁ᵗ) · m / (√v + ε).
+/// With weight decay θ ← θ − rate · decay · θ comes before (Loshchilov and Hutter, "Decoupled weight decay
+/// regularization", 2019), for kernels alone: tensors of two axes or more.
 struct AdamOptions {
-  double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-7;
+  double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-7, weight_decay = 0;
 };
 std::unique_ptr<Optimizer> adam(std::vector<Tensor> parameters, const AdamOptions& options = {});
 

@@ -7,6 +7,8 @@
 namespace svnet {
 
 double Schedule::at(std::int64_t step) const {
+  if (step < warm_up) return base * static_cast<double>(step + 1) / static_cast<double>(warm_up + 1);
+  step -= warm_up;
   switch (kind) {
     case Kind::constant:
       return base;

@@ -5,14 +5,15 @@ namespace svnet {
 
 /// The learning rate of each training step.
 /// constant: base. step: base · factor^⌊step / period⌋. cosine: base · (1 + cos(π · step / total)) / 2, 0 from total
-/// on.
+/// on. A warm-up comes before them and rises evenly to base; steps of the others are then counted from its end.
 struct Schedule {
   enum class Kind { constant, step, cosine };
   Kind kind = Kind::constant;
   double base = 1e-3;
   std::int64_t period = 1;  // step: steps between two changes, positive
   double factor = 0.1;
-  std::int64_t total = 1;  // cosine: steps in all, positive
+  std::int64_t total = 1;    // cosine: steps in all, positive
+  std::int64_t warm_up = 0;  // steps
 
   double at(std::int64_t step) const;
 };
