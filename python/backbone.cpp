@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "bindings.h"
 #include "computing.h"
-#include "io/keras_graph.h"
+#include "io/backbone_file.h"
 
 namespace svnet::python {
 namespace {
@@ -25,11 +25,12 @@ constexpr const char* kClassDoc =
 Parameters
 ----------
 name : one of {names}
-weights : path of a Keras HDF5 weights file, legacy layout or Keras 3 .weights.h5; None: random numbers from the seed,
-    and no top. The network has its top ("predictions") if the file has one.
+weights : path of a Keras HDF5 weights file, legacy layout or Keras 3 .weights.h5, or of a .safetensors file that
+    svnet-pretrain wrote; None: the built-in weights of tiny_xception, for others random numbers from the seed, and no
+    top. The network has its top ("predictions") if the file has one.
 layer : Keras name of the output layer; None: the pooled output, block5_pool of VGG, else global average pooling
     (also "avg_pool", "global_average_pooling2d")
-seed : int from 0 to 2^64 - 1, used where there are no weights
+seed : int from 0 to 2^64 - 1, used where there are no weights, given or built in
 
 Raises
 ------
@@ -63,6 +64,7 @@ LoadedBackbone load(const std::string& name, const py::object& given_weights, co
   const std::string output = layer.value_or("");
   if (given_weights.is_none()) {
     const Computing computing;
+    if (auto built_in = built_in_backbone(name, output)) return {std::move(built_in->backbone), {}};
     return {random_backbone(name, output, seed), {}};
   }
   const std::string weights = path("Backbone", "weights", given_weights);

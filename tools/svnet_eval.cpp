@@ -8,7 +8,8 @@ int main(int argc, char** argv) {
   namespace fs = std::filesystem;
   Command command(
       "svnet-eval",
-      "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder.",
+      "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
+      "and views.png: pictures of held-out objects from above, from where SV-net looks, and from the best view.",
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
   Index problems = 0;
@@ -31,10 +32,12 @@ int main(int argc, char** argv) {
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     console.log_to(folder / "log.txt");
     Run run(config, std::move(dataset), folder, console.messages());
-    const auto tables = run.evaluation(static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems),
-                                       json.empty() ? std::optional<fs::path>() : json);
+    const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);
+    const auto tables = run.evaluation(count, json.empty() ? std::optional<fs::path>() : json);
+    const auto sheet = run.contact_sheet(count);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));
     console.result(table_text(tables.at("training"), "Training categories"));
+    if (sheet) console.result(joined("Views of held-out objects: ", sheet->string()));
   });
 }

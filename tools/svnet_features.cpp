@@ -3,13 +3,21 @@
 #include "command/command.h"
 #include "command/openblas_cap.h"
 #include "io/atomic_file.h"
+#include "io/backbone_file.h"
 #include "io/file_hash.h"
-#include "io/keras_graph.h"
 #include "mpi/mpi_team.h"
 #include "train/feature_extraction.h"
 
 namespace svnet {
 namespace {
+
+BackboneWithOrigin source_of(const std::string& backbone, const std::string& layer,
+                             const std::filesystem::path& weights, KerasLoadReport& report) {
+  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
+  auto built_in = built_in_backbone(backbone, layer);
+  check(built_in.has_value(), "no weights of ", backbone, " are built in; give a file by --weights");
+  return {std::move(built_in->backbone), built_in->sha256};
+}
 
 int run(int argc, char** argv, Team& team) {
   Command command(
@@ -26,7 +34,10 @@ int run(int argc, char** argv, Team& team) {
       .add_option("--backbone", backbone, "The network: " + joined_with(", ", names))
       ->required()
       ->type_name("NAME");
-  command.app().add_option("--weights", weights, "Its weights, as Keras saves them")->required()->type_name("FILE");
+  command.app()
+      .add_option("--weights", weights,
+                  "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
+      ->type_name("FILE");
   command.app().add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
   command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
   command.app()
@@ -37,9 +48,10 @@ int run(int argc, char** argv, Team& team) {
       [&](Console& console) {
         if (team.first()) check_can_be_written(output);
         KerasLoadReport report;
-        const BackboneWithOrigin source{read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
-        console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                            report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
+        const BackboneWithOrigin source = source_of(backbone, layer, weights, report);
+        if (!weights.empty())
+          console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
+                              report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
         const ViewDataset dataset = read_view_dataset(images);
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
         const Features features = extract_features(source.backbone, dataset, origin, console.messages(), team);

@@ -19,6 +19,7 @@ enum class Stream : std::uint32_t {
   evaluation = 7,
   cross_validation = 8,
   collection = 9,
+  augmentation = 10,
 };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`

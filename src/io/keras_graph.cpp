@@ -150,8 +150,8 @@ Parameters read_keras_parameters(const std::filesystem::path& path, const Graph&
   return matched(KerasWeightsFile(path), graph, weighted_layers(graph, output), output, report);
 }
 
-Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                       KerasLoadReport* report) {
+Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
+                             KerasLoadReport* report) {
   const BackboneKind& kind = backbone_kind(name);
   const KerasWeightsFile file(weights);
   Graph graph = kind.graph(kind.preprocessing.height, true);
@@ -163,13 +163,6 @@ Backbone read_backbone(const std::string& name, const std::filesystem::path& wei
   }
   const NodeId output = output_layer(kind, graph, layer);
   return {kind, graph, matched(file, graph, order, output, report), layer};
-}
-
-std::filesystem::path find_weights(const BackboneKind& kind, const std::filesystem::path& folder) {
-  for (const auto& name : kind.weight_files)
-    if (std::filesystem::path path = folder / name; std::filesystem::exists(path)) return path;
-  fail(folder.string(), ": no weights of ", kind.name,
-       "; put one of these files there: ", joined_with(", ", kind.weight_files));
 }
 
 }  // namespace svnet

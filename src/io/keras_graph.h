@@ -22,11 +22,7 @@ Parameters read_keras_parameters(const std::filesystem::path& path, const Graph&
 
 /// The backbone with the weights of the file. All its layers are checked, also those of the top where the file has one;
 /// only the numbers that the output needs are read.
-Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer = "",
-                       KerasLoadReport* report = nullptr);
-
-/// The file of the backbone's weights in a folder, by the names under which Keras publishes them. Throws Error that
-/// lists them where there is none.
-std::filesystem::path find_weights(const BackboneKind& kind, const std::filesystem::path& folder);
+Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
+                             KerasLoadReport* report = nullptr);
 
 }  // namespace svnet

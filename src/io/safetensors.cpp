@@ -26,6 +26,10 @@ constexpr std::uint64_t kLengthBytes = 8;
   fail(file, ": cannot be read: ", std::generic_category().message(error));
 }
 
+void check_size(const std::string& file, std::size_t size) {
+  check(size >= kLengthBytes, file, ": has only ", size, " bytes; is it a safetensors file?");
+}
+
 std::uint64_t little_endian(const std::byte* bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < kLengthBytes; ++i) value |= std::to_integer<std::uint64_t>(bytes[i]) << (8 * i);
@@ -51,7 +55,7 @@ class SafetensorsFile::Mapping {
     if (::fstat(descriptor.number, &status) != 0) fail_to_read(file, errno);
     check(S_ISREG(status.st_mode), file, ": is not a regular file");
     const auto size = static_cast<std::size_t>(status.st_size);
-    check(size >= kLengthBytes, file, ": has only ", size, " bytes; is it a safetensors file?");
+    check_size(file, size);
     void* address = ::mmap(nullptr, size, PROT_READ, MAP_PRIVATE, descriptor.number, 0);
     if (address == MAP_FAILED) fail_to_read(file, errno);
     bytes_ = {static_cast<const std::byte*>(address), size};
@@ -68,7 +72,15 @@ class SafetensorsFile::Mapping {
 
 SafetensorsFile::SafetensorsFile(const std::filesystem::path& path)
     : path_(path.string()), mapping_(std::make_unique<Mapping>(path_)) {
-  const std::span<const std::byte> bytes = mapping_->bytes();
+  parse(mapping_->bytes());
+}
+
+SafetensorsFile::SafetensorsFile(std::string name, std::span<const std::byte> contents) : path_(std::move(name)) {
+  parse(contents);
+}
+
+void SafetensorsFile::parse(std::span<const std::byte> bytes) {
+  check_size(path_, bytes.size());
   const std::uint64_t length = little_endian(bytes.data());
   check(length <= kLargestSafetensorsHeader, path_, ": is not a safetensors file: it declares a header of ", length,
         " bytes");

@@ -34,6 +34,8 @@ class SafetensorsFile {
   /// 100 MB, known dtypes of whole bytes, no name twice, data as long as dtype and shape say, no overlap, no hole, no
   /// rest.
   explicit SafetensorsFile(const std::filesystem::path& path);
+  /// The same for the contents of a file that are in memory and stay there; `name` is what errors call them.
+  SafetensorsFile(std::string name, std::span<const std::byte> contents);
   ~SafetensorsFile();
   SafetensorsFile(SafetensorsFile&&) noexcept;
   SafetensorsFile& operator=(SafetensorsFile&&) noexcept;
@@ -48,6 +50,8 @@ class SafetensorsFile {
 
  private:
   class Mapping;
+  void parse(std::span<const std::byte> bytes);
+
   std::string path_;
   std::unique_ptr<Mapping> mapping_;
   std::vector<SafetensorsTensor> tensors_;

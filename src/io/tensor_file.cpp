@@ -33,9 +33,17 @@ TensorFile& TensorFile::operator=(TensorFile&&) noexcept = default;
 TensorFile::~TensorFile() = default;
 
 TensorFile TensorFile::read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out) {
-  const SafetensorsFile raw(path);
+  return from(SafetensorsFile(path), path.string(), kind, left_out);
+}
+
+TensorFile TensorFile::parse(const std::string& name, std::span<const std::byte> contents, const std::string& kind) {
+  return from(SafetensorsFile(name, contents), name, kind, "");
+}
+
+TensorFile TensorFile::from(const SafetensorsFile& raw, const std::string& path, const std::string& kind,
+                            const std::string& left_out) {
   TensorFile file;
-  file.path_ = path.string();
+  file.path_ = path;
   const auto entry = raw.metadata().find("svnet");
   check(entry != raw.metadata().end(), file.path_,
         ": a safetensors file, but not one that svnet wrote (no 'svnet' in its metadata)");
@@ -94,6 +102,12 @@ Parameters TensorFile::parameters(const std::string& prefix, const Graph& graph)
       parameters.set(name, spec.trainable ? value.as_parameter() : value);
     }
   return parameters;
+}
+
+void TensorFile::check_holds_only(const Parameters& parameters) const {
+  for (const auto& [name, tensor] : tensors_)
+    check(parameters.contains(name), path_, ": holds tensor '", name, "' (", to_string(tensor.shape()),
+          "), for which the network has no place");
 }
 
 void TensorFile::write(const std::filesystem::path& path) const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json_fwd.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -17,6 +18,8 @@ class TensorFile {
   /// Throws Error that names the file.
   /// Tensors whose names begin with `left_out` (none where it is empty) are not read.
   static TensorFile read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out = "");
+  /// The same for the contents of a file that are in memory; `name` is what errors call them.
+  static TensorFile parse(const std::string& name, std::span<const std::byte> contents, const std::string& kind);
 
   TensorFile();
   TensorFile(TensorFile&&) noexcept;
@@ -36,12 +39,18 @@ class TensorFile {
   /// All parameters of the graph, called as add() calls them; the trainable ones are leaves of the tape.
   Parameters parameters(const std::string& prefix, const Graph& graph) const;
 
+  /// Throws Error that names the file and a tensor where it holds one that is not among `parameters`.
+  void check_holds_only(const Parameters& parameters) const;
+
   /// Replaces the file as a whole; "format" is added to the description.
   void write(const std::filesystem::path& path) const;
 
   const std::string& path() const { return path_; }
 
  private:
+  static TensorFile from(const class SafetensorsFile& raw, const std::string& path, const std::string& kind,
+                         const std::string& left_out);
+
   std::string path_;
   std::unique_ptr<nlohmann::json> description_;
   std::vector<std::pair<std::string, Tensor>> tensors_;

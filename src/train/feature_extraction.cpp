@@ -6,9 +6,10 @@
 
 #include "base/parallel.h"
 #include "base/sha256.h"
+#include "base/text.h"
+#include "io/backbone_file.h"
 #include "io/file_hash.h"
 #include "io/image_file.h"
-#include "io/keras_graph.h"
 
 namespace svnet {
 namespace {
@@ -34,9 +35,19 @@ std::string preprocessing_text(const Preprocessing& p) {
 
 BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
                                         const std::filesystem::path& folder, std::uint64_t seed) {
-  if (folder.empty()) return {random_backbone(name, layer, seed), joined("random, seed ", seed)};
-  const auto file = find_weights(backbone_kind(name), folder);
-  return {read_backbone(name, file, layer), file_sha256(file)};
+  const BackboneKind& kind = backbone_kind(name);
+  if (!folder.empty())
+    if (const auto file = find_weights(kind, folder)) return {read_backbone(name, *file, layer), file_sha256(*file)};
+  if (auto built_in = built_in_backbone(name, layer)) return {std::move(built_in->backbone), built_in->sha256};
+  check_weights(name, folder);
+  return {random_backbone(name, layer, seed), joined("random, seed ", seed)};
+}
+
+void check_weights(const std::string& name, const std::filesystem::path& folder) {
+  const BackboneKind& kind = backbone_kind(name);
+  check(folder.empty() || find_weights(kind, folder) || has_built_in_weights(kind), folder.string(), ": no weights of ",
+        kind.name, "; put one of these files there: ", kind.name, ".safetensors, ",
+        joined_with(", ", kind.weight_files));
 }
 
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint) {

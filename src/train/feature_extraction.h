@@ -17,14 +17,18 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const Preprocessing& preprocessing);
 
-/// The backbone with the weights that `folder` holds for it, or seeded random ones where the folder is empty, and a
-/// text that identifies the weights: the file's SHA-256, or "random, seed 7".
+/// The backbone with the weights that `folder` holds for it, else those that are built in, else, where the folder is
+/// empty, seeded random ones; and a text that identifies the weights: the SHA-256 of their file, or "random, seed 7".
+/// Throws Error as check_weights does.
 struct BackboneWithOrigin {
   Backbone backbone;
   std::string weights;
 };
 BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
                                         const std::filesystem::path& folder, std::uint64_t seed);
+
+/// Throws Error where a folder is given that holds no weights of the backbone, and none are built in.
+void check_weights(const std::string& name, const std::filesystem::path& folder);
 
 /// The fields of the origin that follow from backbone, weights and pictures, the input fingerprint included.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);

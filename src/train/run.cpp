@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "io/keras_graph.h"
 #include "train/reused_file.h"
 #include "train/scores_stage.h"
 #include "train/trained_from.h"
@@ -34,7 +33,7 @@ void Run::check_config() {
   const auto check_backbone = [&](const std::string& name, const std::string& layer) {
     const BackboneKind& kind = backbone_kind(name);
     output_layer(kind, kind.graph(kind.preprocessing.height, true), layer);
-    if (!config_.weights.folder.empty()) find_weights(kind, config_.weights.folder);
+    check_weights(name, config_.weights.folder);
   };
   check_backbone(config_.scores.backbone, config_.scores.layer);
   check_backbone(config_.sv_net.backbone, config_.sv_net.layer);

@@ -23,7 +23,7 @@ namespace svnet {
 /// Where the backbone is trained as well, it takes the pictures themselves. The processes of a team share the work;
 /// each of them gets all results, the first one alone writes files.
 ///   features-<backbone>[-<layer>].h5 -> scores.h5 -> checkpoint-*.safetensors, metrics.csv, model.safetensors ->
-///   evaluation.json
+///   evaluation.json, views.png
 class Run {
  public:
   /// Hashes the dataset's pictures and checks, before any work, what the configuration asks for: categories, backbones,
@@ -50,6 +50,11 @@ class Run {
   /// Both tables, of training and of held-out categories, and evaluation.json (also copied to `json` where given).
   /// Throws Error where the folder holds no model of this configuration: evaluating never trains.
   EvaluationTables evaluation(std::uint64_t problems, const std::optional<std::filesystem::path>& json = {});
+
+  /// Writes views.png, a contact sheet of held-out objects: their top view, the view that SV-net chooses and the one
+  /// that scores best among the held-out categories by so many problems. Nothing where fewer than 2 categories are held
+  /// out.
+  std::optional<std::filesystem::path> contact_sheet(std::uint64_t problems);
 
  private:
   void check_config();

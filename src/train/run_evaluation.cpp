@@ -6,7 +6,9 @@
 
 #include "base/parallel.h"
 #include "io/atomic_file.h"
+#include "io/image_file.h"
 #include "train/clustering_choice.h"
+#include "train/contact_sheet.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
 
@@ -120,6 +122,25 @@ EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optiona
   return tables;
 }
 
+std::optional<std::filesystem::path> Run::contact_sheet(std::uint64_t problem_count) {
+  if (std::count(held_out_.begin(), held_out_.end(), true) < 2) return {};
+  const std::vector<double> predicted = predicted_scores(trained_model());
+  std::vector<bool> trained_on = held_out_;
+  trained_on.flip();
+  Config among_held_out = config_;
+  among_held_out.scores.problems = static_cast<Index>(problem_count);
+  among_held_out.scores.min_samples = 0;
+  among_held_out.scores.target_error = 0;
+  const Scores scores = make_scores(dataset_, features(config_.scores.backbone, config_.scores.layer), trained_on,
+                                    among_held_out, messages_);
+  const auto& best = config_.sv_net.target == Config::SvNet::Target::individual ? scores.individual : scores.global;
+  const Selector selectors[] = {top_selector(dataset_), best_selector("svnet", dataset_, predicted),
+                                best_selector("best", dataset_, best)};
+  const auto path = folder_ / "views.png";
+  write_png(path, svnet::contact_sheet(dataset_, sheet_poses(dataset_, held_out_), selectors));
+  return path;
+}
+
 void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages) {
   Config small = config;
   small.scores.problems = 100;
@@ -130,6 +151,7 @@ void dry_run(const Config& config, const ViewDataset& dataset, const Messages& m
   Run run(small, sample_of(dataset, std::max<Index>(2, config.scores.min_objects)), folder.path(), messages);
   run.model();
   run.evaluation(10);
+  run.contact_sheet(10);
 }
 
 }  // namespace svnet

@@ -9,25 +9,16 @@
 #include <numeric>
 
 #include "base/parallel.h"
-#include "base/random.h"
 #include "nn/autograd.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
 #include "nn/optim/optimizer.h"
+#include "train/epoch_order.h"
 
 namespace svnet {
 namespace {
 
 constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
-
-/// The numbers of all examples in the order of this epoch.
-std::vector<std::int32_t> shuffled(Index count, std::uint64_t seed, Index epoch) {
-  std::vector<std::int32_t> order(static_cast<std::size_t>(count));
-  std::iota(order.begin(), order.end(), 0);
-  RandomStream random(seed, Stream::shuffle, static_cast<std::uint64_t>(epoch));
-  draw_without_replacement(random, order.data(), count, count);
-  return order;
-}
 
 /// The largest absolute value; infinite where a number is not finite.
 float largest(const Tensor& x) {
@@ -70,12 +61,6 @@ std::uint64_t sum_of_bits(const Parameters& parameters) {
   return sum;
 }
 
-/// Where a batch ends: a last batch of a single example joins the batch before it.
-Index batch_end(Index begin, Index batch_size, Index count) {
-  const Index end = std::min(begin + batch_size, count);
-  return count - end == 1 ? count : end;
-}
-
 std::string metrics_line(Index epoch, Index step, double rate, double loss, std::optional<double> validation) {
   char text[160];
   std::snprintf(text, sizeof text, "%lld,%lld,%.9g,%.9g,", static_cast<long long>(epoch), static_cast<long long>(step),
@@ -113,12 +98,7 @@ std::vector<Shape> Trainer::optimizer_shapes() const {
   return shapes;
 }
 
-Index Trainer::steps_per_epoch() const {
-  Index steps = 0;
-  for (Index begin = 0; begin < training_.size(); begin = batch_end(begin, options_.batch_size, training_.size()))
-    ++steps;
-  return steps;
-}
+Index Trainer::steps_per_epoch() const { return batch_count(options_.batch_size, training_.size()); }
 
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
@@ -170,7 +150,7 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
   Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch);
   Index done = 0;
   for (; state.epoch < options_.epochs;) {
-    const auto order = shuffled(training_.size(), options_.seed, state.epoch);
+    const auto order = epoch_order(training_.size(), options_.seed, state.epoch);
     const double rate = options_.schedule.at(optimizer->steps);
     double sum = 0;
     for (Index begin = 0, end; begin < training_.size(); begin = end) {

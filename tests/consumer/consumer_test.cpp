@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/backbone_file.h"
 #include "io/image_file.h"
-#include "io/keras_graph.h"
 #include "io/view_dataset.h"
 #include "shared_folder.h"
 #include "small_model.h"

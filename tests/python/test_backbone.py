@@ -103,3 +103,14 @@ def test_weights_of_another_model_are_refused():
     fixtures = pathlib.Path(__file__).parents[1] / "fixtures" / "io"
     with pytest.raises(svnet.Error, match="keras_legacy.h5"):
         svnet.Backbone("mobilenet_v2", weights=fixtures / "keras_legacy.h5")
+
+
+def test_tiny_xception_has_its_weights_built_in():
+    images = np.random.default_rng(6).integers(256, size=(2, 96, 96, 3), dtype=np.uint8)
+    built_in = svnet.Backbone("tiny_xception")
+    file = pathlib.Path(__file__).parents[2] / "data" / "tiny_xception.safetensors"
+    given = svnet.Backbone("tiny_xception", weights=file, seed=3)
+    assert built_in.features(images).tobytes() == given.features(images).tobytes()
+    assert given.unused_layers == []
+    with pytest.raises(svnet.Error, match="holds weights of tiny_xception, expected weights of mobilenet"):
+        svnet.Backbone("mobilenet", weights=file)

@@ -28,6 +28,7 @@ struct Row {
 #define FEATURES "svnet-features --backbone tiny_xception --output out.h5 "
 #define FEATURES_WITH(weights) FEATURES "--images data --weights " weights
 #define FEATURES_OF(images) FEATURES "--weights weights/tiny_xception.h5 --images " images
+#define PRETRAIN "svnet-pretrain --output out.safetensors "
 #define SCORE "svnet-score --dataset data --problems 50 --output out.h5 --features "
 #define TRAIN "svnet-train bad.yaml --output run"
 #define SET(assignment) "svnet-train config.yaml --output run --set " assignment
@@ -81,6 +82,20 @@ const Row kRows[] = {
      "svnet-features --backbone mobilnet --weights weights/tiny_xception.h5 --images data --output out.h5",
      "there is no backbone 'mobilnet', did you mean 'mobilenet'?"},
     {"unknown layer", "", FEATURES_WITH("weights/tiny_xception.h5 --layer block2_ad"), "did you mean 'block2_add'?"},
+    {"no weights, given or built in", "", "svnet-features --backbone mobilenet --images data --output out.h5",
+     "no weights of mobilenet are built in; give a file by --weights"},
+    {"weights that are a model", "", FEATURES_WITH("model.safetensors"),
+     "model.safetensors: is a model, expected a weights"},
+    // pretraining
+    {"pretraining without data", "mkdir bad", PRETRAIN "--images bad", "bad: data set without categories"},
+    {"pretraining on one category", "", PRETRAIN "--images data --exclude ball,cone,cube",
+     "data: 1 categories to tell apart besides the excluded ones"},
+    {"no object left to train on", "", PRETRAIN "--images data --validation-objects 2",
+     "data: category 'ball' has 2 objects, and --validation-objects 2 leaves none of them to train on"},
+    {"damaged picture in pretraining", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png",
+     PRETRAIN "--images bad", "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG picture"},
+    {"full disk: weights", "", "ulimit -f 1; " PRETRAIN "--images data --quiet --epochs 1",
+     "out.safetensors: cannot be written: File too large"},
     // configurations
     {"missing configuration", "", TRAIN, "bad.yaml: cannot open the configuration file"},
     {"broken YAML", "echo 'seed: [1' >bad.yaml", TRAIN, "bad.yaml:1: "},
@@ -98,7 +113,8 @@ const Row kRows[] = {
      "dataset.held_out: leaves 1 categories to train on"},
     {"unknown key by --set", "", SET("training.epoch=3"), "--set training.epoch: unknown key, did you mean 'epochs'?"},
     {"value out of range by --set", "", SET("sv_net.dropout=1"), "--set sv_net.dropout: 1 is out of range"},
-    {"folder of weights without the backbone's", "mkdir bad", SET("weights.folder=bad"), "bad: no weights of "},
+    {"folder of weights without the backbone's", "mkdir bad", SET("weights.folder=bad --set scores.backbone=mobilenet"),
+     "bad: no weights of mobilenet; put one of these files there: mobilenet.safetensors, "},
     // datasets
     {"missing dataset", "", SET("dataset.root=none"), "none: no such folder"},
     {"empty dataset", "mkdir bad", SET("dataset.root=bad"), "bad: data set without categories"},
@@ -148,7 +164,7 @@ const Row kRows[] = {
     {"full disk: scores", "", "ulimit -f 1; " SCORE "features.h5", "out.h5: cannot be written: File too large"},
     {"no folder for temporary files", "", "TMPDIR=/nonexistent svnet-train config.yaml --dry-run",
      "/nonexistent: is no folder for temporary files; set TMPDIR to one"},
-    {"a dataset where one is to be made", "", "svnet-demo-data --output data", "data: exists already"},
+    {"a dataset where one is to be made", "", "svnet-render --output data", "data: exists already"},
     // surroundings
     {"unknown instruction set", "", "SVNET_MAX_ISA=AVX22 " PREDICT "top.png", "this machine has no 'AVX22'"},
     {"no number of threads", "", "SVNET_THREADS=many " PREDICT "top.png",

@@ -24,23 +24,34 @@ void check_plain(const Workplace& place, const std::string& command, int status 
 TEST_CASE("redirected output of every command is plain lines") {
   const Workplace place;
   for (const std::string program : {"svnet-train", "svnet-eval", "svnet-features", "svnet-score", "svnet-predict",
-                                    "svnet-info", "svnet-demo-data"}) {
+                                    "svnet-info", "svnet-pretrain", "svnet-render"}) {
     check_plain(place, program + " --help");
     check_plain(place, program + " --version");
     check_plain(place, program + " --colour", 2);
     CHECK_THAT(place.output_of(program + " --help"), Catch::Contains("\nExample:\n  " + program + " "));
   }
   for (const char* command :
-       {"svnet-train config.yaml --dry-run", "svnet-train config.yaml --output run",
-        "svnet-train config.yaml --output run", "svnet-train config.yaml --output run --resume never",
+       {"svnet-train config.yaml --dry-run",
+        "svnet-train config.yaml --output run",
+        "svnet-train config.yaml --output run",
+        "svnet-train config.yaml --output run --resume never",
         "svnet-eval run --json tables.json",
         "svnet-features --backbone tiny_xception --weights weights/tiny_xception.h5 --images data --output again.h5",
         "svnet-score --dataset data --features features.h5 "
         "--output again.h5 --problems 300",
         "svnet-predict model.safetensors --image top.png --plot plot.png",
-        "svnet-predict model.safetensors --image top.png --json", "svnet-info", "svnet-info features.h5",
-        "svnet-info scores.h5", "svnet-info model.safetensors", "svnet-info run/checkpoint-last.safetensors",
-        "svnet-info weights/tiny_xception.h5", "svnet-demo-data --output demo --size 16 --objects 1"})
+        "svnet-predict model.safetensors --image top.png --json",
+        "svnet-info",
+        "svnet-info features.h5",
+        "svnet-info scores.h5",
+        "svnet-info model.safetensors",
+        "svnet-info run/checkpoint-last.safetensors",
+        "svnet-info weights/tiny_xception.h5",
+        "svnet-render --output mugs --categories mug --objects 1 --poses 1 --size 32",
+        "svnet-pretrain --images data --output tiny_xception.safetensors --epochs 1",
+        "svnet-info tiny_xception.safetensors",
+        "svnet-features --backbone tiny_xception --images data --output built-in.h5",
+        "svnet-features --backbone tiny_xception --weights tiny_xception.safetensors --images data --output again.h5"})
     check_plain(place, command);
 }
 

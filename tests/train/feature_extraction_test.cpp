@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "io/backbone_file.h"
 #include "io/hdf5/hdf5_file.h"
-#include "io/keras_graph.h"
 #include "nn/graph/keras_order.h"
 #include "small_dataset.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "io/backbone_file.h"
 #include "io/file_hash.h"
 #include "models/backbone.h"
 #include "predict/predictor.h"
@@ -146,7 +147,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
 
   // Frozen layers keep their bits, trained ones do not.
   const Model model = read_model(temporary.path() / "run1/model.safetensors");
-  const Backbone untrained = random_backbone("tiny_xception", "", 3);
+  const Backbone untrained = backbone_from_folder("tiny_xception", "", {}, 3).backbone;
   const auto above = untrained.graph().ancestors({untrained.graph().find("block4_act")});
   for (std::size_t i = 0; i < above.size(); ++i) {
     const GraphNode& node = untrained.graph().nodes()[i];
@@ -289,6 +290,38 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   config.scores.min_objects = 3;
   CHECK_THROWS_WITH(run(), "scores.min_objects: 3, but category 'ball' has 2 objects");
   CHECK_FALSE(std::filesystem::exists(temporary.path() / "run/config.yaml"));
+}
+
+TEST_CASE("a contact sheet of held-out objects is written where categories are held out") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  results(config, temporary.path() / "one", {});
+  CHECK_FALSE(Run(config, read_view_dataset(config.dataset.root), temporary.path() / "one", {}).contact_sheet(20));
+  CHECK_FALSE(std::filesystem::exists(temporary.path() / "one/views.png"));
+  config.dataset.held_out = {"ring", "ball"};
+  results(config, temporary.path() / "two", {});
+  const auto sheet =
+      Run(config, read_view_dataset(config.dataset.root), temporary.path() / "two", {}).contact_sheet(20);
+  REQUIRE(sheet == temporary.path() / "two/views.png");
+  CHECK(read_image(*sheet).width == 20 + 2 * (3 * 116 + 20));
+}
+
+TEST_CASE("weights come from the folder, else are built in, else are random") {
+  const TemporaryFolder temporary;
+  const auto folder = temporary.path();
+  const auto weights = [](const BackboneWithOrigin& from) { return from.weights; };
+  const std::string built_in = built_in_backbone("tiny_xception")->sha256;
+  CHECK(weights(backbone_from_folder("tiny_xception", "", {}, 7)) == built_in);
+  CHECK(weights(backbone_from_folder("tiny_xception", "", folder, 7)) == built_in);
+  CHECK(weights(backbone_from_folder("mobilenet", "", {}, 7)) == "random, seed 7");
+  CHECK_THROWS_WITH(backbone_from_folder("mobilenet", "", folder, 7),
+                    folder.string() +
+                        ": no weights of mobilenet; put one of these files there: mobilenet.safetensors, "
+                        "mobilenet_1_0_224_tf_no_top.h5, mobilenet_1_0_224_tf.h5");
+  write_backbone(folder / "tiny_xception.safetensors", random_backbone("tiny_xception", "", 2), "");
+  CHECK(weights(backbone_from_folder("tiny_xception", "", folder, 7)) ==
+        file_sha256(folder / "tiny_xception.safetensors"));
 }
 
 TEST_CASE("evaluating never trains") {

@@ -17,7 +17,7 @@ struct Config {
     std::vector<std::string> held_out;
   };
   struct Weights {
-    std::filesystem::path folder;  ///< empty: random weights drawn from the seed
+    std::filesystem::path folder;  ///< empty: built-in weights, or random ones
   };
   struct Scores {
     enum class Clustering { ward, average, complete, single, kmeans };

@@ -83,7 +83,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
       names("dataset.held_out", c.dataset.held_out, "Categories that take part neither in the scores nor in training."),
 
       folder_path("weights.folder", c.weights.folder, "a folder, or \"\"",
-                  "Folder of the pretrained Keras weights. Empty: random weights drawn from the seed."),
+                  "Folder of pretrained weights. A backbone without any there takes those built in, as tiny_xception "
+                  "has; where "
+                  "there is no folder, others begin from random numbers drawn from the seed."),
 
       text("scores.backbone", c.scores.backbone, backbone, "Extracts the features that are clustered."),
       text("scores.layer", c.scores.layer, layer, "The layer whose output is clustered. Empty: the pooled output."),

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+namespace svnet {
+
+/// The contents of the weights file of a backbone that is part of the program; empty where there is none.
+std::span<const std::byte> built_in_weights(const std::string& backbone);
+
+}  // namespace svnet

@@ -1,0 +1,52 @@
+#include "train/labelled_pictures.h"
+
+#include "base/parallel.h"
+#include "io/image_file.h"
+
+namespace svnet {
+
+LabelledPictures::LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures,
+                                   const Preprocessing& preprocessing, const Messages& messages,
+                                   const std::string& task)
+    : preprocessing_(preprocessing), images_(pictures.size()) {
+  constexpr Index kBlock = 256;  // between two reports
+  Progress progress(messages, task, size());
+  for (Index first = 0; first < size(); first += kBlock) {
+    const Index count = std::min(kBlock, size() - first);
+    Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
+      const auto i = static_cast<std::size_t>(first + begin);
+      const View& view = dataset.views[static_cast<std::size_t>(pictures[i].view)];
+      images_[i] = resized(read_image(dataset.root / view.path), preprocessing.height, preprocessing.width,
+                           preprocessing.interpolation);
+    });
+    progress.update(first + count);
+  }
+  for (const Picture& picture : pictures) classes_.push_back(picture.number);
+}
+
+template <class Change>
+LabelledPictures::Batch LabelledPictures::batch_of(std::span<const std::int32_t> numbers, const Change& change) const {
+  Batch batch{Tensor::empty({static_cast<Index>(numbers.size()), preprocessing_.height, preprocessing_.width, 3}), {}};
+  float* to = batch.pixels.data<float>();
+  Parallel::shared().for_chunks(static_cast<Index>(numbers.size()), 1, [&](Index i, Index, int) {
+    const auto number = static_cast<std::size_t>(numbers[static_cast<std::size_t>(i)]);
+    prepare(preprocessing_, change(images_[number], number), to + i * preprocessing_.size());
+  });
+  for (const std::int32_t number : numbers) batch.classes.push_back(classes_[static_cast<std::size_t>(number)]);
+  return batch;
+}
+
+LabelledPictures::Batch LabelledPictures::batch(std::span<const std::int32_t> numbers) const {
+  return batch_of(numbers, [](const Image& image, std::size_t) -> const Image& { return image; });
+}
+
+LabelledPictures::Batch LabelledPictures::augmented_batch(std::span<const std::int32_t> numbers,
+                                                          const Augmentation& how, std::uint64_t seed,
+                                                          Index epoch) const {
+  return batch_of(numbers, [&](const Image& image, std::size_t number) {
+    RandomStream random(seed, Stream::augmentation, static_cast<std::uint64_t>(epoch) << 32 | number);
+    return augmented(image, how, random);
+  });
+}
+
+}  // namespace svnet

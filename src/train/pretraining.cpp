@@ -1,0 +1,181 @@
+#include "train/pretraining.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include "base/text.h"
+#include "models/trained_graph.h"
+#include "nn/autograd.h"
+#include "nn/graph/run.h"
+#include "nn/ops/losses.h"
+#include "nn/optim/optimizer.h"
+#include "nn/optim/schedule.h"
+#include "nn/runtime/inference.h"
+#include "train/epoch_order.h"
+#include "train/labelled_pictures.h"
+#include "train/training_set.h"
+
+namespace svnet {
+namespace {
+
+/// What is trained on and what is judged by.
+struct Split {
+  std::vector<std::string> categories;
+  std::vector<LabelledPictures::Picture> training, validation;
+};
+
+Split split(const ViewDataset& dataset, const PretrainingOptions& options) {
+  const std::vector<bool> excluded = named_categories(dataset, options.exclude, "--exclude");
+  std::vector<Index> objects_left(dataset.categories.size(), 0);  // to train on
+  for (const auto& object : dataset.objects) ++objects_left[static_cast<std::size_t>(object.category)];
+  Split split;
+  std::vector<Index> class_of(dataset.categories.size(), -1);
+  for (std::size_t c = 0; c < dataset.categories.size(); ++c) {
+    if (excluded[c]) continue;
+    check(objects_left[c] > options.validation_objects, dataset.root.string(), ": category '", dataset.categories[c],
+          "' has ", objects_left[c], " objects, and --validation-objects ", options.validation_objects,
+          " leaves none of them to train on");
+    objects_left[c] -= options.validation_objects;
+    class_of[c] = static_cast<Index>(split.categories.size());
+    split.categories.push_back(dataset.categories[c]);
+  }
+  check(split.categories.size() >= 2, dataset.root.string(), ": ", split.categories.size(), " categories to tell apart",
+        options.exclude.empty() ? "" : " besides the excluded ones", ", at least 2 are needed");
+  std::vector<bool> trained_on;  // per object
+  for (const auto& object : dataset.objects)
+    trained_on.push_back(objects_left[static_cast<std::size_t>(object.category)]-- > 0);
+  for (std::size_t v = 0; v < dataset.views.size(); ++v) {
+    const View& view = dataset.views[v];
+    const Index number = class_of[static_cast<std::size_t>(view.category)];
+    if (number < 0) continue;
+    auto& part = trained_on[static_cast<std::size_t>(view.object)] ? split.training : split.validation;
+    part.push_back({static_cast<Index>(v), number});
+  }
+  return split;
+}
+
+/// How many rows of logits (B, classes) have their largest number at the row's class.
+Index recognised(const Tensor& logits, const std::vector<Index>& classes) {
+  const Index count = logits.dim(1);
+  Index right = 0;
+  for (std::size_t row = 0; row < classes.size(); ++row) {
+    const float* z = logits.data<float>() + static_cast<Index>(row) * count;
+    right += std::max_element(z, z + count) - z == classes[row];
+  }
+  return right;
+}
+
+/// Share of the pictures that the network recognises.
+double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures) {
+  constexpr Index kBatch = 64;
+  const Inference network(graph, parameters, graph.output());
+  std::vector<std::int32_t> numbers(static_cast<std::size_t>(pictures.size()));
+  std::iota(numbers.begin(), numbers.end(), 0);
+  Index right = 0;
+  for (Index begin = 0; begin < pictures.size(); begin += kBatch) {
+    const auto count = static_cast<std::size_t>(std::min(kBatch, pictures.size() - begin));
+    const auto batch = pictures.batch(std::span(numbers).subspan(static_cast<std::size_t>(begin), count));
+    right += recognised(network.run({batch.pixels}), batch.classes);
+  }
+  return static_cast<double>(right) / static_cast<double>(pictures.size());
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
+  return text;
+}
+
+/// The graph whose moving statistics follow those of batches with `momentum`.
+Graph with_momentum(const Graph& graph, double momentum) {
+  Graph changed;
+  for (const GraphNode& node : graph.nodes()) {
+    Layer layer = node.layer;
+    if (auto* norm = std::get_if<BatchNormLayer>(&layer)) norm->options.momentum = momentum;
+    changed.add(node.name, std::move(layer), node.inputs);
+  }
+  return changed;
+}
+
+/// Of step t. From scratch the moving statistics say nothing: they begin as the plain mean of the first batches', and
+/// then follow within a hundred steps.
+double momentum_at(std::int64_t t) { return std::min(static_cast<double>(t) / static_cast<double>(t + 1), 0.95); }
+
+/// Sums over an epoch.
+struct Learnt {
+  double loss = 0;
+  Index right = 0;
+};
+
+Learnt step(const Graph& described, Parameters& parameters, Optimizer& optimizer, const LabelledPictures::Batch& batch,
+            double rate, std::uint64_t seed) {
+  const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
+  const TrainingContext context{.seed = seed, .step = static_cast<std::uint64_t>(optimizer.steps)};
+  const Tensor logits = train(graph, parameters, {batch.pixels}, {graph.output()}, context)[0];
+  const Tensor loss = ops::softmax_cross_entropy(logits, batch.classes);
+  check(std::isfinite(loss.item()), "[pretraining] the loss is not finite at step ", optimizer.steps,
+        "; a smaller learning rate may help");
+  autograd::GradientMap gradients;
+  autograd::backward(loss, gradients);
+  optimizer.step(gradients, rate);
+  return {loss.item() * static_cast<double>(batch.classes.size()), recognised(logits, batch.classes)};
+}
+
+}  // namespace
+
+Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages) {
+  const BackboneKind& kind = backbone_kind(options.backbone);
+  const Split parts = split(dataset, options);
+  const LabelledPictures training(dataset, parts.training, kind.preprocessing, messages, "reading pictures");
+  const LabelledPictures validation(dataset, parts.validation, kind.preprocessing, messages,
+                                    "reading validation pictures");
+
+  const Graph whole = kind.graph(kind.preprocessing.height, false);
+  const NodeId pooled = output_layer(kind, whole, "");
+  const Graph layers = whole.up_to(pooled);
+  Graph head;
+  const NodeId features = head.input("features", {element_count(layers.node(pooled).shape)});
+  head.add("logits", DenseLayer{.units = static_cast<Index>(parts.categories.size())}, {features});
+  const Graph graph = trained_graph(layers, layers.inputs().at(0), layers.output(), head);
+  Parameters backbone = initial_parameters(layers, options.seed);
+  Parameters parameters = trained_parameters(graph, backbone, head, options.seed);
+
+  const Index per_epoch = batch_count(options.batch_size, training.size());
+  const Index warm_up = std::min(per_epoch, options.epochs * per_epoch / 10);
+  const Schedule schedule{.kind = Schedule::Kind::cosine,
+                          .base = options.learning_rate,
+                          .total = options.epochs * per_epoch - warm_up,
+                          .warm_up = warm_up};
+  const auto optimizer = adam(trainable(graph, parameters), {.weight_decay = options.weight_decay});
+  Progress progress(messages, "pretraining", options.epochs * per_epoch);
+  double validation_accuracy = std::numeric_limits<double>::quiet_NaN();
+  for (Index epoch = 0; epoch < options.epochs; ++epoch) {
+    const auto order = epoch_order(training.size(), options.seed, epoch);
+    Learnt sum;
+    for (Index begin = 0, end; begin < training.size(); begin = end) {
+      end = batch_end(begin, options.batch_size, training.size());
+      const auto numbers =
+          std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+      const Learnt learnt = step(graph, parameters, *optimizer,
+                                 training.augmented_batch(numbers, options.augmentation, options.seed, epoch),
+                                 schedule.at(optimizer->steps), options.seed);
+      sum.loss += learnt.loss;
+      sum.right += learnt.right;
+      progress.update(optimizer->steps);
+    }
+    const auto count = static_cast<double>(training.size());
+    if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation);
+    if (messages.line)
+      messages.line(
+          joined("epoch ", epoch + 1, "/", options.epochs, ": loss ", sum.loss / count, ", recognised ",
+                 percent(static_cast<double>(sum.right) / count),
+                 validation.size() > 0 ? joined(", of unseen objects ", percent(validation_accuracy)) : std::string()));
+  }
+  Parameters dropped;
+  take_trained(parameters, backbone, dropped);
+  return {Backbone(kind, layers, backbone), parts.categories, training.size(), validation.size(), validation_accuracy};
+}
+
+}  // namespace svnet

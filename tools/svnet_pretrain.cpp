@@ -1,0 +1,71 @@
+// svnet-pretrain: the weights of a backbone, trained from scratch to tell categories apart.
+#include <cmath>
+#include <cstdio>
+
+#include "base/text.h"
+#include "command/command.h"
+#include "io/atomic_file.h"
+#include "io/backbone_file.h"
+#include "train/pretraining.h"
+
+namespace {
+
+using namespace svnet;
+
+/// "99.5 % of 2400 pictures of 24 objects that were not trained on"
+std::string accuracy_text(const Pretrained& result) {
+  if (result.validation_pictures == 0) return "no validation";
+  char share[32];
+  std::snprintf(share, sizeof share, "%.1f %%", 100 * result.validation_accuracy);
+  return joined("recognises ", share, " of ", result.validation_pictures, " pictures of objects not trained on");
+}
+
+std::string origin_text(const Pretrained& result, const PretrainingOptions& options) {
+  return joined("svnet-pretrain on ", result.training_pictures, " pictures of ", result.categories.size(),
+                " categories (", joined_with(", ", result.categories), "), ", options.epochs, " epochs, seed ",
+                options.seed, "; ", accuracy_text(result));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  Command command("svnet-pretrain",
+                  "Trains a backbone from scratch to tell the categories of a dataset (category/object/pose/"
+                  "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on: "
+                  "how many of their pictures are recognised says how well the backbone learnt.",
+                  "svnet-render --output runs/rendered --objects 20 --poses 2 --size 96\n"
+                  "svnet-pretrain --images runs/rendered --exclude comb,knife --output tiny_xception.safetensors");
+  std::filesystem::path images, output;
+  PretrainingOptions options;
+  std::vector<std::string> names;
+  for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
+  CLI::App& app = command.app();
+  app.add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
+  app.add_option("--output", output, "The file to write, *.safetensors")->required()->type_name("FILE");
+  app.add_option("--backbone", options.backbone, "The network: " + joined_with(", ", names) + " (tiny_xception)")
+      ->type_name("NAME");
+  app.add_option("--exclude", options.exclude, "Categories that take no part, with commas between them")
+      ->delimiter(',');
+  app.add_option("--validation-objects", options.validation_objects,
+                 "The last so many objects of each category are not trained on (1)")
+      ->check(CLI::Range(0, 1000000));
+  app.add_option("--epochs", options.epochs, joined("Passes over the pictures (", options.epochs, ")"))
+      ->check(CLI::Range(1, 100000));
+  app.add_option("--batch", options.batch_size, joined("Pictures of a step (", options.batch_size, ")"))
+      ->check(CLI::Range(2, 4096));
+  app.add_option("--learning-rate", options.learning_rate,
+                 "The highest learning rate; it warms up and falls to 0 by half a cosine (0.004)")
+      ->check(CLI::PositiveNumber);
+  app.add_option("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)")
+      ->check(CLI::NonNegativeNumber);
+  app.add_option("--seed", options.seed, "Seed of weights, order and changes of the pictures (0)");
+  return command.run(argc, argv, [&](Console& console) {
+    if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
+    check_can_be_written(output);
+    const ViewDataset dataset = read_view_dataset(images);
+    const Pretrained result = pretrain(dataset, options, console.messages());
+    write_backbone(output, result.backbone, origin_text(result, options));
+    console.result(joined(output.string(), ": ", result.backbone.kind().name, ", ", result.categories.size(),
+                          " categories, ", result.training_pictures, " pictures; ", accuracy_text(result)));
+  });
+}
