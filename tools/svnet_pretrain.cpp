@@ -54,7 +54,7 @@ int main(int argc, char** argv) {
   app.add_option("--batch", options.batch_size, joined("Pictures of a step (", options.batch_size, ")"))
       ->check(CLI::Range(2, 4096));
   app.add_option("--learning-rate", options.learning_rate,
-                 "The highest learning rate; it warms up and falls to 0 by half a cosine (0.004)")
+                 "The highest learning rate; it warms up and falls to 0 by half a cosine (0.002)")
       ->check(CLI::PositiveNumber);
   app.add_option("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)")
       ->check(CLI::NonNegativeNumber);

@@ -15,8 +15,8 @@ struct PretrainingOptions {
   std::vector<std::string> exclude;  ///< categories that take no part
   Index validation_objects = 1;      ///< the last so many objects of each category, which are not trained on
   Index epochs = 30;
-  Index batch_size = 64;
-  double learning_rate = 4e-3;  ///< the highest: after a warm-up of at most one epoch it falls to 0 by half a cosine
+  Index batch_size = 32;
+  double learning_rate = 2e-3;  ///< the highest: after a warm-up of at most one epoch it falls to 0 by half a cosine
   double weight_decay = 0.05;
   Augmentation augmentation{};
   std::uint64_t seed = 0;
