@@ -53,7 +53,7 @@ Material material_of(const aiScene& scene, const aiMaterial& from, const fs::pat
   return material;
 }
 
-/// Assimp makes room for all that a PLY header promises, for hours where that is nonsense.
+/// Assimp makes room for all that a PLY header promises, for minutes where that is nonsense.
 void check_ply_header(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
   std::string line;

@@ -127,12 +127,14 @@ std::optional<std::filesystem::path> Run::contact_sheet(std::uint64_t problem_co
   const std::vector<double> predicted = predicted_scores(trained_model());
   std::vector<bool> trained_on = held_out_;
   trained_on.flip();
-  Config among_held_out = config_;
-  among_held_out.scores.problems = static_cast<Index>(problem_count);
-  among_held_out.scores.min_samples = 0;
-  among_held_out.scores.target_error = 0;
-  const Scores scores = make_scores(dataset_, features(config_.scores.backbone, config_.scores.layer), trained_on,
-                                    among_held_out, messages_);
+  const Features& of_views = features(config_.scores.backbone, config_.scores.layer);
+  ScoreOptions options = score_options(config_, of_views.dimension);
+  options.problems = problem_count;
+  options.min_samples = 0;
+  options.target_error = 0;
+  const SemanticScores scores = semantic_scores(
+      squared_distances(of_views.values.data(), of_views.count, of_views.dimension, Parallel::shared()),
+      clustering_problems(dataset_, trained_on, config_.scores), options, Parallel::shared(), messages_);
   const auto& best = config_.sv_net.target == Config::SvNet::Target::individual ? scores.individual : scores.global;
   const Selector selectors[] = {top_selector(dataset_), best_selector("svnet", dataset_, predicted),
                                 best_selector("best", dataset_, best)};

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "semantics/semantic_scores.h"
 #include "train/clustering_choice.h"
 
 namespace svnet {
@@ -122,6 +121,16 @@ class Snapshots {
 
 }  // namespace
 
+ScoreOptions score_options(const Config& config, Index dimension) {
+  const auto& s = config.scores;
+  return {.problems = static_cast<std::uint64_t>(s.problems),
+          .min_samples = static_cast<std::uint64_t>(s.min_samples),
+          .target_error = s.target_error,
+          .seed = static_cast<std::uint64_t>(config.seed),
+          .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
+          .clustering = clustering_options(s.clustering, dimension)};
+}
+
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoresRun& run) {
@@ -129,13 +138,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
   const DistanceMatrix distances =
       squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared());
   const ClusteringProblems problems = clustering_problems(dataset, excluded, s);
-  const ScoreOptions options{
-      .problems = static_cast<std::uint64_t>(s.problems),
-      .min_samples = static_cast<std::uint64_t>(s.min_samples),
-      .target_error = s.target_error,
-      .seed = static_cast<std::uint64_t>(config.seed),
-      .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
-      .clustering = clustering_options(s.clustering, features.dimension)};
+  const ScoreOptions options = score_options(config, features.dimension);
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
 
   const std::filesystem::path snapshot = snapshot_path(path);

@@ -7,6 +7,7 @@
 #include "io/scores_file.h"
 #include "io/view_dataset.h"
 #include "semantics/clustering_problems.h"
+#include "semantics/semantic_scores.h"
 #include "train/config/config.h"
 
 namespace svnet {
@@ -15,6 +16,9 @@ namespace svnet {
 /// scores.min_categories lower that bound.
 ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
                                        const Config::Scores& config);
+
+/// What `config.scores` and `config.seed` say of scores of features of that dimension.
+ScoreOptions score_options(const Config& config, Index dimension);
 
 /// Changes with everything that the scores of these features depend on.
 std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);

@@ -144,12 +144,12 @@ void conv2d_weight_gradient_reference(const Conv2dShape& s, const T* x, const T*
     });
 }
 
-#define SVNET_INSTANTIATE(T)                                                                          \
-  template void conv2d<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*); \
-  template void conv2d_input_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);      \
-  template void conv2d_weight_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);     \
-  template void conv2d_reference<T>(const Conv2dShape&, const T*, const T*, T*);                      \
-  template void conv2d_input_gradient_reference<T>(const Conv2dShape&, const T*, const T*, T*);       \
+#define SVNET_INSTANTIATE(T)                                                                      \
+  template void conv2d<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);                 \
+  template void conv2d_input_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*);  \
+  template void conv2d_weight_gradient<T>(Parallel&, const Conv2dShape&, const T*, const T*, T*); \
+  template void conv2d_reference<T>(const Conv2dShape&, const T*, const T*, T*);                  \
+  template void conv2d_input_gradient_reference<T>(const Conv2dShape&, const T*, const T*, T*);   \
   template void conv2d_weight_gradient_reference<T>(const Conv2dShape&, const T*, const T*, T*);
 SVNET_INSTANTIATE(float)
 SVNET_INSTANTIATE(double)
