@@ -33,7 +33,6 @@ int main(int argc, char** argv) {
                   "Trains a backbone from scratch to tell the categories of a dataset (category/object/pose/"
                   "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on: "
                   "how many of their pictures are recognised says how well the backbone learnt.",
-                  "svnet-render --output runs/rendered --objects 20 --poses 2 --size 96\n"
                   "svnet-pretrain --images runs/rendered --exclude comb,knife --output tiny_xception.safetensors");
   std::filesystem::path images, output;
   PretrainingOptions options;
