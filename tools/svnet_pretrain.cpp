@@ -1,6 +1,5 @@
 // svnet-pretrain: the weights of a backbone, trained from scratch to tell categories apart.
 #include <cmath>
-#include <cstdio>
 
 #include "base/text.h"
 #include "command/command.h"
@@ -15,9 +14,8 @@ using namespace svnet;
 /// "99.5 % of 2400 pictures of 24 objects that were not trained on"
 std::string accuracy_text(const Pretrained& result) {
   if (result.validation_pictures == 0) return "no validation";
-  char share[32];
-  std::snprintf(share, sizeof share, "%.1f %%", 100 * result.validation_accuracy);
-  return joined("recognises ", share, " of ", result.validation_pictures, " pictures of objects not trained on");
+  return joined("recognises ", percent(result.validation_accuracy), " of ", result.validation_pictures,
+                " pictures of objects not trained on");
 }
 
 std::string origin_text(const Pretrained& result, const PretrainingOptions& options) {

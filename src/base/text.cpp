@@ -1,6 +1,7 @@
 #include "base/text.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <numeric>
 
 namespace svnet {
@@ -50,6 +51,12 @@ std::string joined_with(std::string_view separator, std::span<const std::string>
     if (!text.empty()) text += separator;
     text += item;
   }
+  return text;
+}
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
   return text;
 }
 

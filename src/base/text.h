@@ -15,6 +15,9 @@ std::string suggestion(std::string_view name, std::span<const std::string> candi
 /// The items with the separator between them.
 std::string joined_with(std::string_view separator, std::span<const std::string> items);
 
+/// "99.5 %" of a share of 0.995.
+std::string percent(double share);
+
 /// Control characters become spaces: what a file's name or a library's message brings along must not reach a terminal,
 /// nor break a line in two.
 std::string without_control_characters(std::string_view text);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include "base/text.h"
@@ -80,12 +79,6 @@ double accuracy(const Graph& graph, const Parameters& parameters, const Labelled
     right += recognised(network.run({batch.pixels}), batch.classes);
   }
   return static_cast<double>(right) / static_cast<double>(pictures.size());
-}
-
-std::string percent(double share) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.1f %%", 100 * share);
-  return text;
 }
 
 /// The graph whose moving statistics follow those of batches with `momentum`.

@@ -65,6 +65,8 @@ class Run {
   /// Of the model that this configuration leads to.
   std::string model_fingerprint();
   Model trained_model();
+  /// predicted_scores of the model in the folder, computed once.
+  const std::vector<double>& predictions();
   void train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
                   Resume resume);
   /// What the layers above `from` of sv_net.backbone take, for the top views of the categories that are not held out.
@@ -82,6 +84,7 @@ class Run {
   std::map<std::string, BackboneWithOrigin> backbones_;
   std::map<std::filesystem::path, Features> features_;  // by their file
   std::optional<Scores> scores_;
+  std::optional<std::vector<double>> predicted_;
 };
 
 /// Every stage once, on a few views of each category, in a folder that is removed again. Throws what a real run would.

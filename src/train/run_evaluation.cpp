@@ -76,9 +76,8 @@ class ScratchFolder {
 }  // namespace
 
 EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optional<std::filesystem::path>& json) {
-  const Model model = trained_model();
+  const std::vector<double>& predicted = predictions();
   const Scores& scores = this->scores();
-  const std::vector<double> predicted = predicted_scores(model);
 
   std::map<std::string, std::pair<DistanceMatrix, Index>> distances;  // of each backbone, with its features' dimension
   std::vector<EvaluationPipeline> pipelines;
@@ -124,7 +123,7 @@ EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optiona
 
 std::optional<std::filesystem::path> Run::contact_sheet(std::uint64_t problem_count) {
   if (std::count(held_out_.begin(), held_out_.end(), true) < 2) return {};
-  const std::vector<double> predicted = predicted_scores(trained_model());
+  const std::vector<double>& predicted = predictions();
   std::vector<bool> trained_on = held_out_;
   trained_on.flip();
   const Features& of_views = features(config_.scores.backbone, config_.scores.layer);

@@ -91,6 +91,7 @@ Model Run::model(Resume resume) {
       return std::move(*model);
     }
 
+  predicted_.reset();
   const BackboneWithOrigin& source = backbone(config_.sv_net.backbone, config_.sv_net.layer);
   const AngleEncoding angles = encoding(config_.sv_net.angles);
   Model model{.backbone = source.backbone.kind().name,
@@ -181,6 +182,11 @@ void Run::train_into(Model& model, const Graph& graph, const TrainingSet& traini
       messages_);
   team_.from_first(0);  // has written what all read
   take_trained(read_checkpoint_parameters(best, graph), model.backbone_parameters, model.head_parameters);
+}
+
+const std::vector<double>& Run::predictions() {
+  if (!predicted_) predicted_ = predicted_scores(trained_model());
+  return *predicted_;
 }
 
 std::vector<double> Run::predicted_scores(const Model& model) {

@@ -231,7 +231,7 @@ TEST_CASE("Winograd's gradients agree with the definition") {
       std::vector<float> first;
       for (int threads : {1, 2, 5}) {
         Parallel parallel(threads);
-        const Window flipped = winograd_input_gradient_window(w, k);
+        const Window flipped = w.input_gradient(k);
         const WinogradWeights flipped_weights = winograd_flipped_weights(c, k, weights.get());
         const AlignedFloats found_dx = scratch_memory(x.count), found_dw = scratch_memory(weights.count);
         const AlignedFloats scratch = scratch_memory(winograd_scratch(flipped, flipped_weights, threads));

@@ -29,6 +29,19 @@ Axis along(const char* operation, const char* axis, Index size, Index kernel, In
 
 }  // namespace
 
+Window::Columns Window::inner_columns() const {
+  const Index first = std::min(ow, (left + stride_w - 1) / stride_w);
+  return {first, w + left >= kw ? std::clamp((w + left - kw) / stride_w + 1, first, ow) : first};
+}
+
+Window Window::input_gradient(Index k) const {
+  Window over = *this;
+  over.h = oh, over.w = ow, over.c = k;
+  over.oh = h, over.ow = w;
+  over.top = kh - 1 - top, over.left = kw - 1 - left;
+  return over;
+}
+
 Window window_over(const char* operation, Index n, Index h, Index w, Index c, const WindowOptions& o) {
   check(n >= 0 && h > 0 && w > 0 && c > 0, "[", operation, "] images of ", n, "x", h, "x", w, "x", c, " are empty");
   const Axis rows = along(operation, "height", h, o.kh, o.stride_h, o.padding, o.padding.top, o.padding.bottom);

@@ -27,6 +27,14 @@ struct Window {
   Index oh, ow;
 
   Index positions() const { return n * oh * ow; }
+  /// The output columns whose windows reach neither out of the left nor out of the right side of the image.
+  struct Columns {
+    Index first, last;  // [first, last), perhaps none
+  };
+  Columns inner_columns() const;
+  /// The window that, sliding over dy (N, OH, OW, k), gives the gradient of this one's input, of which it covers all
+  /// pixels, with the weights flipped along both axes. Strides must be 1.
+  Window input_gradient(Index k) const;
   /// Whether each window is one pixel, in the image's order.
   bool reads_in_place() const {
     return kh == 1 && kw == 1 && stride_h == 1 && stride_w == 1 && top == 0 && left == 0 && oh == h && ow == w;

@@ -44,7 +44,7 @@ Tensor winograd_forward(const Window& window, const Tensor& x, const kernels::Wi
 
 Tensor input_gradient(const kernels::Conv2dShape& s, const Tensor& dy, const Tensor& w) {
   if (by_winograd(s, dy.dtype()))
-    return winograd_forward(kernels::winograd_input_gradient_window(s.window, s.k), dy,
+    return winograd_forward(s.window.input_gradient(s.k), dy,
                             kernels::winograd_flipped_weights(s.window.c, s.k, w.data<float>()));
   Tensor dx = Tensor::empty({s.window.n, s.window.h, s.window.w, s.window.c}, dy.dtype());
   with_dtype(dy.dtype(),

@@ -71,18 +71,15 @@ bool multiplies_by_rows(const Window& w) { return w.ow >= 48 && depth(w) <= kPac
 void multiply_row(const Job& job, Index row, float* windows) {
   const Window& w = job.w;
   const Index n = row / w.oh, top = row % w.oh * w.stride_h - w.top;
-  Index inner0 = 0, inner1 = 0;
-  if (top >= 0 && top + w.kh <= w.h && w.w + w.left >= w.kw) {
-    inner0 = std::min(w.ow, (w.left + w.stride_w - 1) / w.stride_w);
-    inner1 = std::clamp((w.w + w.left - w.kw) / w.stride_w + 1, inner0, w.ow);
-  }
+  const bool inside = top >= 0 && top + w.kh <= w.h;
+  const auto [first, last] = inside ? w.inner_columns() : Window::Columns{0, 0};
   const Index begin = row * w.ow;
-  job.multiply_gathered(begin, begin + inner0, windows);
-  if (inner1 > inner0) {
-    const float* first = job.x + ((n * w.h + top) * w.w + inner0 * w.stride_w - w.left) * w.c;
-    job.multiply(begin + inner0, inner1 - inner0, {first, w.stride_w * w.c, w.w * w.c, w.kw * w.c});
+  job.multiply_gathered(begin, begin + first, windows);
+  if (last > first) {
+    const float* from = job.x + ((n * w.h + top) * w.w + first * w.stride_w - w.left) * w.c;
+    job.multiply(begin + first, last - first, {from, w.stride_w * w.c, w.w * w.c, w.kw * w.c});
   }
-  job.multiply_gathered(begin + inner1, begin + w.ow, windows);
+  job.multiply_gathered(begin + last, begin + w.ow, windows);
 }
 
 }  // namespace

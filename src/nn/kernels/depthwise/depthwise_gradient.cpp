@@ -70,12 +70,7 @@ void depthwise_input_gradient(Parallel& parallel, const DepthwiseShape& s, const
   const Index taps = win.kh * win.kw;
   std::vector<float> flipped(static_cast<std::size_t>(taps * win.c));
   for (Index tap = 0; tap < taps; ++tap) std::copy_n(w + tap * win.c, win.c, flipped.data() + (taps - 1 - tap) * win.c);
-  Window back = win;
-  std::swap(back.h, back.oh);
-  std::swap(back.w, back.ow);
-  back.top = win.kh - 1 - win.top;
-  back.left = win.kw - 1 - win.left;
-  depthwise(parallel, {back, 1}, dy, flipped.data(), dx);
+  depthwise(parallel, {win.input_gradient(win.c), 1}, dy, flipped.data(), dx);
 }
 
 void depthwise_weight_gradient(Parallel& parallel, const DepthwiseShape& s, const float* x, const float* dy,

@@ -133,9 +133,7 @@ constexpr decltype(&depthwise_run<kPixels, kRelu>) kRunsOfThree[] = {
 template <bool kRelu>
 HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
                                 float* y) {
-  // Output columns whose windows lie wholly inside the image are [inner0, inner1).
-  const Index inner0 = (win.left + win.stride_w - 1) / win.stride_w;
-  const Index inner1 = win.w + win.left >= win.kw ? (win.w + win.left - win.kw) / win.stride_w + 1 : 0;
+  const auto [inner0, inner1] = win.inner_columns();
   // Then add_rows_of_three serves every column of a row.
   const bool threes = win.kw == 3 && win.stride_w == 1 && inner0 <= 1 && inner1 >= win.ow - 1;
   // A few panels of channels together: each pixel is then some lines in a row, which the hardware fetches ahead.

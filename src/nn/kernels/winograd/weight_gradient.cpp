@@ -103,14 +103,6 @@ HWY_EXPORT(transform_gradients);
 HWY_EXPORT(sum_points);
 HWY_EXPORT(transform_taps);
 
-Window winograd_input_gradient_window(const Window& w, Index k) {
-  Window flipped = w;
-  flipped.h = w.oh, flipped.w = w.ow, flipped.c = k;
-  flipped.oh = w.h, flipped.ow = w.w;
-  flipped.top = 2 - w.top, flipped.left = 2 - w.left;
-  return flipped;
-}
-
 WinogradWeights winograd_flipped_weights(Index c, Index k, const float* w) {
   const AlignedFloats flipped = aligned_floats(9 * c * k);
   for (Index tap = 0; tap < 9; ++tap)

@@ -35,8 +35,8 @@ void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, c
                      const WinogradFinish& finish, float* y, float* scratch);
 Index winograd_scratch(const Window& window, const WinogradWeights& weights, int threads);
 
-/// Window and weights of the convolution that turns dy into dx: dx (N, H, W, C) = dy * flipped. w is (3, 3, C, K).
-Window winograd_input_gradient_window(const Window& window, Index k);
+/// Weights of the convolution that turns dy into dx over Window::input_gradient: dx (N, H, W, C) = dy * flipped. w is
+/// (3, 3, C, K).
 WinogradWeights winograd_flipped_weights(Index c, Index k, const float* w);
 
 /// dw (3, 3, C, K) from x and dy (N, OH, OW, K): the forward's products the other way round, 36 a pair of channels and
