@@ -1,5 +1,5 @@
-// The product of a few rows and one panel of 16 columns, kept in registers: what every fast convolution ends in.
-// Included once per instruction set by the kernels that use it.
+// The product of a few rows and one or two panels of 16 columns, kept in registers: what every fast convolution ends
+// in. Included once per instruction set by the kernels that use it.
 #if defined(SVNET_MICRO_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef SVNET_MICRO_KERNEL_INL_H_
 #undef SVNET_MICRO_KERNEL_INL_H_
@@ -24,15 +24,17 @@ using PanelTag = hn::CappedTag<float, kPanel>;
 using PanelVector = hn::Vec<PanelTag>;
 inline constexpr int kVectorsPerPanel = static_cast<int>(kPanel / hn::MaxLanes(PanelTag()));
 
-/// Rows whose sums fit the registers beside a panel's row and a broadcast number: 6·2 of 16 vectors for AVX2, 14 of 32
-/// for AVX-512, 3·4 of 16 for SSE4, 6·4 of 32 for NEON.
+/// Rows and panels whose sums fit the registers beside the panels' row and a broadcast number: 6·2 of 16 vectors for
+/// AVX2, 14·2 of 32 for AVX-512 (one panel alone would ask for a load with every product), 3·4 of 16 for SSE4, 6·4 of
+/// 32 for NEON.
 #if HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-inline constexpr int kTileRows = 14;
+inline constexpr int kTileRows = 14, kTilePanels = 2;
 #elif HWY_ARCH_X86 && HWY_MAX_BYTES == 16
-inline constexpr int kTileRows = 3;
+inline constexpr int kTileRows = 3, kTilePanels = 1;
 #else
-inline constexpr int kTileRows = 6;
+inline constexpr int kTileRows = 6, kTilePanels = 1;
 #endif
+static_assert(kTilePanels <= kMostTilePanels);
 
 /// body(std::integral_constant<int, 0>), … up to count - 1, without a loop: the indices are constants to the compiler.
 template <class Body, int... i>
@@ -42,6 +44,11 @@ HWY_INLINE void unrolled(Body&& body, std::integer_sequence<int, i...>) {
 template <int kCount, class Body>
 HWY_INLINE void unrolled(Body&& body) {
   unrolled(body, std::make_integer_sequence<int, kCount>{});
+}
+
+/// Where vector v of some panels lies, which are `panel_stride` apart.
+constexpr Index in_panel(int v, Index panel_stride) {
+  return v / kVectorsPerPanel * panel_stride + v % kVectorsPerPanel * (kPanel / kVectorsPerPanel);
 }
 
 /// The greater of both; a NaN in y stays.
@@ -65,79 +72,89 @@ HWY_INLINE V clamped(V y, V low, V high) {
 #endif
 }
 
-/// sum (kRows, 16) += a (kRows, k) · panel (k, 16), in order of k: a row's sums do not depend on its neighbours.
-template <int kRows>
+/// sum (kRows, kVectors · lanes) += a (kRows, k) · panels, in order of k: a row's sums do not depend on its neighbours.
+/// The panels' rows of 16 lie `panel_stride` apart.
+template <int kRows, int kVectors>
 HWY_INLINE void multiply_run(Index k, const float* HWY_RESTRICT a, Index row_stride, const float* HWY_RESTRICT panel,
-                             PanelVector (&sum)[kRows][kVectorsPerPanel]) {
+                             Index panel_stride, PanelVector (&sum)[kRows][kVectors]) {
   const PanelTag d;
   for (Index i = 0; i < k; ++i) {
-    PanelVector b[kVectorsPerPanel];
-    unrolled<kVectorsPerPanel>(
-        [&](auto v) HWY_ATTR { b[v] = hn::Load(d, panel + i * kPanel + v * (kPanel / kVectorsPerPanel)); });
+    PanelVector b[kVectors];
+    unrolled<kVectors>([&](auto v) HWY_ATTR { b[v] = hn::Load(d, panel + i * kPanel + in_panel(v, panel_stride)); });
     unrolled<kRows>([&](auto r) HWY_ATTR {
       const auto x = hn::Set(d, a[r * row_stride + i]);
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { sum[r][v] = hn::MulAdd(x, b[v], sum[r][v]); });
+      unrolled<kVectors>([&](auto v) HWY_ATTR { sum[r][v] = hn::MulAdd(x, b[v], sum[r][v]); });
     });
   }
 }
 
-/// One tile: c (kRows, 16) = finish(a · panel [+ c]).
-template <int kRows>
-HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel, const TileOutput& out) {
+/// One tile: c (kRows, kPanels · 16) = finish(a · panels [+ c]).
+template <int kRows, int kPanels>
+HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel, Index panel_stride,
+                                const TileOutput& out) {
   const PanelTag d;
-  constexpr Index kLanes = kPanel / kVectorsPerPanel;
-  PanelVector sum[kRows][kVectorsPerPanel];
+  constexpr int kVectors = kPanels * kVectorsPerPanel;
+  PanelVector sum[kRows][kVectors];
   unrolled<kRows>([&](auto r) HWY_ATTR {
-    unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-      sum[r][v] = out.accumulate ? hn::LoadU(d, out.c + r * out.stride + v * kLanes) : hn::Zero(d);
+    unrolled<kVectors>([&](auto v) HWY_ATTR {
+      sum[r][v] = out.accumulate ? hn::LoadU(d, out.c + r * out.stride + in_panel(v, out.panel_stride)) : hn::Zero(d);
     });
   });
   if (a.block_stride == a.run) {
-    multiply_run<kRows>(k, a.data, a.row_stride, panel, sum);
+    multiply_run(k, a.data, a.row_stride, panel, panel_stride, sum);
   } else {
     const float* block = a.data;
     Index rest = k;
     for (; rest >= a.run; rest -= a.run, block += a.block_stride, panel += a.run * kPanel)
-      multiply_run<kRows>(a.run, block, a.row_stride, panel, sum);
-    multiply_run<kRows>(rest, block, a.row_stride, panel, sum);
+      multiply_run(a.run, block, a.row_stride, panel, panel_stride, sum);
+    multiply_run(rest, block, a.row_stride, panel, panel_stride, sum);
   }
   if (out.finish != nullptr) {
     const TileFinish& finish = *out.finish;
     const auto low = hn::Set(d, finish.low), high = hn::Set(d, finish.high);
     unrolled<kRows>([&](auto r) HWY_ATTR {
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-        auto y = hn::Add(sum[r][v], hn::LoadU(d, finish.bias + v * kLanes));
+      unrolled<kVectors>([&](auto v) HWY_ATTR {
+        auto y = hn::Add(sum[r][v], hn::LoadU(d, finish.bias + in_panel(v, kPanel)));
         if (finish.residual != nullptr)
-          y = hn::Add(y, hn::LoadU(d, finish.residual + r * finish.residual_stride + v * kLanes));
+          y = hn::Add(y, hn::LoadU(d, finish.residual + r * finish.residual_stride + in_panel(v, kPanel)));
         sum[r][v] = clamped(y, low, high);
       });
     });
   }
   unrolled<kRows>([&](auto r) HWY_ATTR {
-    unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { hn::StoreU(sum[r][v], d, out.c + r * out.stride + v * kLanes); });
+    unrolled<kVectors>(
+        [&](auto v) HWY_ATTR { hn::StoreU(sum[r][v], d, out.c + r * out.stride + in_panel(v, out.panel_stride)); });
   });
 }
 
-using MultiplyTile = void (*)(const PanelRows&, Index, const float*, const TileOutput&);
+using MultiplyTile = void (*)(const PanelRows&, Index, const float*, Index, const TileOutput&);
 
-template <int... rows>
+template <int kPanels, int... rows>
 constexpr auto tile_kernels(std::integer_sequence<int, rows...>) {
-  return std::array<MultiplyTile, sizeof...(rows)>{&multiply_tile<rows + 1>...};
+  return std::array<MultiplyTile, sizeof...(rows)>{&multiply_tile<rows + 1, kPanels>...};
 }
-inline constexpr auto kTileKernels = tile_kernels(std::make_integer_sequence<int, kTileRows>{});
+template <int kPanels>
+inline constexpr auto kTileKernels = tile_kernels<kPanels>(std::make_integer_sequence<int, kTileRows>{});
 
-/// c (rows, 16) = finish(a (rows, k) · panel [+ c]), whatever the number of rows: tiles as equal as can be.
-HWY_INLINE void multiply_panel(Index rows, PanelRows a, Index k, const float* panel, TileOutput out) {
+/// c (rows, kPanels · 16) = finish(a (rows, k) · panels [+ c]), whatever the number of rows: tiles as equal as can be.
+template <int kPanels>
+HWY_INLINE void multiply_panels_together(Index rows, PanelRows a, Index k, const float* panel, Index panel_stride,
+                                         TileOutput out) {
   TileFinish finish{};
   if (out.finish != nullptr) finish = *out.finish, out.finish = &finish;
   for (Index tiles = (rows + kTileRows - 1) / kTileRows; tiles > 0; --tiles) {
     const Index height = (rows + tiles - 1) / tiles;
-    kTileKernels[static_cast<std::size_t>(height - 1)](a, k, panel, out);
+    kTileKernels<kPanels>[static_cast<std::size_t>(height - 1)](a, k, panel, panel_stride, out);
     a.data += height * a.row_stride;
     out.c += height * out.stride;
     if (finish.residual != nullptr) finish.residual += height * finish.residual_stride;
     rows -= height;
   }
+}
+
+/// The same with one panel: c (rows, 16).
+HWY_INLINE void multiply_panel(Index rows, const PanelRows& a, Index k, const float* panel, const TileOutput& out) {
+  multiply_panels_together<1>(rows, a, k, panel, 0, out);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -14,10 +14,11 @@ HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
-/// One panel that is whole, or whose columns end inside it: then tile by tile over a scratch tile.
-void multiply_one_panel(Index rows, const PanelRows& a, const PackedWeights& weights, Index p,
-                        const PackedFinish& finish, float low, float high, float* c) {
-  const Index n = weights.n, columns = HWY_MIN(kPanel, n - p * kPanel);
+/// kPanels whole panels, or one whose columns end inside it: then tile by tile over a scratch tile.
+template <int kPanels>
+void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& weights, Index p,
+                          const PackedFinish& finish, float low, float high, float* c) {
+  const Index n = weights.n, columns = HWY_MIN(kPanels * kPanel, n - p * kPanel);
   TileFinish tile_finish{weights.bias.get() + p * kPanel,
                          finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
   for (Index begin = 0; begin < weights.k; begin += kPackedDepth) {
@@ -26,8 +27,9 @@ void multiply_one_panel(Index rows, const PanelRows& a, const PackedWeights& wei
     PanelRows part = a;
     part.data += begin / a.run * a.block_stride;
     const float* panel = weights.panel(p) + begin * kPanel;
-    if (columns == kPanel) {
-      multiply_panel(rows, part, run, panel, {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr});
+    if (columns == kPanels * kPanel) {
+      multiply_panels_together<kPanels>(rows, part, run, panel, weights.k * kPanel,
+                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr});
       continue;
     }
     alignas(kAlignment) float tile[kTileRows * kPanel];
@@ -49,7 +51,11 @@ void multiply_panels(Index rows, const PanelRows& a, const PackedWeights& weight
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const float low = finish.clamp == Clamp::none ? -kInfinity : 0.0f;
   const float high = finish.clamp == Clamp::relu6 ? 6.0f : kInfinity;
-  for (Index p = first; p < last; ++p) multiply_one_panel(rows, a, weights, p, finish, low, high, c);
+  Index p = first;
+  if constexpr (kTilePanels > 1)
+    for (const Index whole = HWY_MIN(last, weights.n / kPanel); p + kTilePanels <= whole; p += kTilePanels)
+      multiply_some_panels<kTilePanels>(rows, a, weights, p, finish, low, high, c);
+  for (; p < last; ++p) multiply_some_panels<1>(rows, a, weights, p, finish, low, high, c);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -67,7 +73,7 @@ void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weight
 }
 
 Index packed_block_rows(Index rows, Index k) {
-  const Index most = std::clamp<Index>(64 * 1024 / std::max<Index>(k, 1), 24, 96);
+  const Index most = std::clamp<Index>(72 * 1024 / std::max<Index>(k, 1), 24, 96);
   // Multiples of four, so that two or four threads end together.
   const Index least = (rows + most - 1) / most, whole = (least + 3) / 4 * 4;
   const Index blocks = rows >= 12 * whole ? whole : std::max(least, rows / 12);

@@ -9,6 +9,9 @@ inline constexpr Index kPanel = 16;
 
 inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
 
+/// Panels that one tile of registers may span; how many it does depends on the instruction set.
+inline constexpr int kMostTilePanels = 2;
+
 /// The left operand of a product with a panel: number (row, k) lies at
 /// data[k / run · block_stride + row · row_stride + k % run]. Plain rows have block_stride = run.
 struct PanelRows {
@@ -19,18 +22,20 @@ struct PanelRows {
 
 /// What is done to the sums of a tile before they are stored: y = clamp(y + bias + residual, low, high); NaN stays NaN.
 struct TileFinish {
-  const float* bias;      // of the panel's 16 columns
-  const float* residual;  // (rows, 16), or nullptr
+  const float* bias;      // of the tile's columns
+  const float* residual;  // (rows, columns), or nullptr
   Index residual_stride;
   float low, high;
 };
 
-/// Where a tile (rows, 16) goes. With accumulate, what is there is added to.
+/// Where a tile goes: its rows are `stride` apart, its panels of 16 columns `panel_stride`, which is 16 where there is
+/// a finish with a residual. With accumulate, what is there is added to.
 struct TileOutput {
   float* c;
   Index stride;
   bool accumulate = false;
   const TileFinish* finish = nullptr;
+  Index panel_stride = kPanel;
 };
 
 }  // namespace svnet::kernels

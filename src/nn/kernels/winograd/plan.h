@@ -12,6 +12,12 @@ struct WinogradTile {
   Index image, row, column;
 };
 
+/// Transformed weights [36][channels][16] of some panels of output channels, points and panels so far apart.
+struct PanelWeights {
+  const float* data;
+  Index point, panel;
+};
+
 /// How winograd_conv2d cuts its work, and where numbers lie in its scratch memory. It depends on the shape alone.
 struct WinogradPlan {
   Window window;
@@ -49,7 +55,11 @@ struct WinogradPlan {
 
   Index input_size(Index count) const { return window.c / kPanel * input_group(count); }
   Index output_size(Index count) const { return 36 * output_point(count); }
-  Index worker_scratch() const { return output_size(block) + (transformed ? input_size(block) : 36 * run * kPanel); }
+  Index weight_point() const { return odd_lines(run); }
+  Index weight_size() const { return 36 * weight_point(); }
+  Index worker_scratch() const {
+    return kMostTilePanels * output_size(block) + (transformed ? input_size(block) : kMostTilePanels * weight_size());
+  }
   Index scratch(int threads) const { return threads * worker_scratch() + (transformed ? 0 : input_size(block)); }
 
  private:

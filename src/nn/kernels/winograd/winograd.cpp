@@ -55,22 +55,29 @@ void transform_inputs(const WinogradPlan& plan, const float* x, Index first, Ind
   }
 }
 
-/// The weights of input channels [begin, end) of one panel of taps as points [36][end - begin][16].
-void transform_weights(const float* taps, Index begin, Index end, float* points) {
+/// The weights of input channels [begin, end) of one panel of taps as points [36][end - begin][16], `point` apart.
+void transform_weights(const float* taps, Index begin, Index end, float* points, Index point) {
   for (Index c = begin; c < end; ++c)
     for (Index v = 0; v < kPanel; v += kLanes)
-      transform_weight_vector(taps + c * 9 * kPanel + v, kPanel, points + (c - begin) * kPanel + v,
-                              (end - begin) * kPanel);
+      transform_weight_vector(taps + c * 9 * kPanel + v, kPanel, points + (c - begin) * kPanel + v, point);
 }
 
-/// products (36, tiles, 16) (+)= points of channels [begin, end) times weights [36][end - begin][16], point by point.
+/// Panels of output channels whose products this machine makes together.
+Index panels_together() { return kTilePanels; }
+
+/// Of `panels` panels, products [panel](36, tiles, 16) (+)= points of channels [begin, end) times weights
+/// [36][end - begin][16], whose points and panels lie so far apart.
 void multiply_points(const WinogradPlan& plan, Index tiles, const float* points, Index begin, Index end,
-                     const float* weights, Index weight_point, float* products) {
+                     const PanelWeights& weights, Index panels, float* products) {
   for (Index p = 0; p < 36; ++p) {
     const PanelRows a{points + begin / kPanel * plan.input_group(tiles) + p * plan.input_point(tiles), kPanel,
                       plan.input_group(tiles)};
-    multiply_panel(tiles, a, end - begin, weights + p * weight_point,
-                   {products + p * plan.output_point(tiles), kPanel, begin > 0});
+    const float* panel = weights.data + p * weights.point;
+    const TileOutput out{products + p * plan.output_point(tiles), kPanel, begin > 0, nullptr, plan.output_size(tiles)};
+    if (panels == kTilePanels)
+      multiply_panels_together<kTilePanels>(tiles, a, end - begin, panel, weights.panel, out);
+    else
+      multiply_panel(tiles, a, end - begin, panel, out);
   }
 }
 
@@ -123,6 +130,7 @@ namespace svnet::kernels {
 
 HWY_EXPORT(transform_inputs);
 HWY_EXPORT(transform_weights);
+HWY_EXPORT(panels_together);
 HWY_EXPORT(multiply_points);
 HWY_EXPORT(transform_outputs);
 
@@ -149,7 +157,7 @@ WinogradWeights winograd_weights(Index c, Index k, const float* w, const float* 
     for (Index i = 0; i < c; ++i)
       for (Index tap = 0; tap < 9; ++tap)
         std::copy_n(w + (tap * c + i) * k + panel * kPanel, kPanel, packed + (i * 9 + tap) * kPanel);
-    if (weights.transformed) HWY_DYNAMIC_DISPATCH(transform_weights)(packed, 0, c, to);
+    if (weights.transformed) HWY_DYNAMIC_DISPATCH(transform_weights)(packed, 0, c, to, c * kPanel);
   }
   return weights;
 }
@@ -163,41 +171,50 @@ namespace {
 /// A task is a block of tiles.
 void by_tiles(Parallel& parallel, const WinogradPlan& plan, const float* x, const WinogradWeights& weights,
               const WinogradFinish& finish, float* y, float* scratch) {
+  const Index per_panel = 36 * weights.c * kPanel, all = plan.k / kPanel;
+  const Index together = HWY_DYNAMIC_DISPATCH(panels_together)();
   parallel.for_chunks(plan.tiles(), plan.block, [&](Index first, Index last, int worker) {
     float* points = scratch + worker * plan.worker_scratch();
     float* products = points + plan.input_size(plan.block);
     winograd_input_points(plan, x, first, last, first, last, points);
-    for (Index panel = 0; panel < plan.k / kPanel; ++panel) {
+    for (Index panel = 0, count = together; panel < all; panel += count) {
+      if (panel + count > all) count = 1;
       HWY_DYNAMIC_DISPATCH(multiply_points)
-      (plan, last - first, points, 0, weights.c, weights.panels.get() + panel * 36 * weights.c * kPanel,
-       weights.c * kPanel, products);
-      HWY_DYNAMIC_DISPATCH(transform_outputs)
-      (plan, products, weights.bias.get() + panel * kPanel, first, last, panel, finish, y);
+      (plan, last - first, points, 0, weights.c,
+       {weights.panels.get() + panel * per_panel, weights.c * kPanel, per_panel}, count, products);
+      for (Index i = 0; i < count; ++i) HWY_DYNAMIC_DISPATCH(transform_outputs)
+      (plan, products + i * plan.output_size(last - first), weights.bias.get() + (panel + i) * kPanel, first, last,
+       panel + i, finish, y);
     }
   });
 }
 
-/// A task is a panel of output channels.
+/// A task is a panel of output channels, or as many as are multiplied together.
 void by_channels(Parallel& parallel, const WinogradPlan& plan, const float* x, const WinogradWeights& weights,
                  const WinogradFinish& finish, float* y, float* scratch) {
   float* points = scratch + parallel.threads() * plan.worker_scratch();
+  const Index together =
+      plan.k / kPanel % HWY_DYNAMIC_DISPATCH(panels_together)() == 0 ? HWY_DYNAMIC_DISPATCH(panels_together)() : 1;
   for (Index first = 0; first < plan.tiles(); first += plan.block) {
     const Index last = std::min(first + plan.block, plan.tiles());
     parallel.for_chunks(last - first, 4, [&](Index begin, Index end, int) {
       winograd_input_points(plan, x, first, last, first + begin, first + end, points);
     });
-    parallel.for_chunks(plan.k / kPanel, 1, [&](Index panel, Index, int worker) {
+    parallel.for_chunks(plan.k / kPanel, together, [&](Index panel, Index, int worker) {
       float* transformed = scratch + worker * plan.worker_scratch();
-      float* products = transformed + 36 * plan.run * kPanel;
+      float* products = transformed + kMostTilePanels * plan.weight_size();
       const float* taps = weights.panels.get() + panel * 9 * weights.c * kPanel;
       for (Index begin = 0; begin < weights.c; begin += plan.run) {
         const Index end = std::min(begin + plan.run, weights.c);
-        HWY_DYNAMIC_DISPATCH(transform_weights)(taps, begin, end, transformed);
+        for (Index i = 0; i < together; ++i) HWY_DYNAMIC_DISPATCH(transform_weights)
+        (taps + i * 9 * weights.c * kPanel, begin, end, transformed + i * plan.weight_size(), plan.weight_point());
         HWY_DYNAMIC_DISPATCH(multiply_points)
-        (plan, last - first, points, begin, end, transformed, (end - begin) * kPanel, products);
+        (plan, last - first, points, begin, end, {transformed, plan.weight_point(), plan.weight_size()}, together,
+         products);
       }
-      HWY_DYNAMIC_DISPATCH(transform_outputs)
-      (plan, products, weights.bias.get() + panel * kPanel, first, last, panel, finish, y);
+      for (Index i = 0; i < together; ++i) HWY_DYNAMIC_DISPATCH(transform_outputs)
+      (plan, products + i * plan.output_size(last - first), weights.bias.get() + (panel + i) * kPanel, first, last,
+       panel + i, finish, y);
     });
   }
 }
