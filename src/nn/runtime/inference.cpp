@@ -22,6 +22,17 @@ runtime::MemoryPlan planned(const runtime::Program& program) {
   return runtime::plan_memory(values);
 }
 
+/// Samples that go through all steps together. Activations of several megabytes would move through memory between the
+/// steps of a whole batch; but weights that serve each sample for less than some flops a byte must be read once for
+/// all.
+Index samples_together(const runtime::Program& program, const runtime::MemoryPlan& memory) {
+  constexpr double kLeastFlopsPerByte = 8;
+  constexpr Index kMostActivations = Index{2} << 20;  // 8 MiB of numbers
+  for (const auto& step : program.steps)
+    if (step.step->flops() < kLeastFlopsPerByte * step.step->weight_bytes()) return std::numeric_limits<Index>::max();
+  return std::max<Index>(kMostActivations / std::max<Index>(memory.size, 1), 1);
+}
+
 }  // namespace
 
 /// An arena for the length of one run.
@@ -40,6 +51,7 @@ class Inference::Loan {
       std::size_t most = 1;
       for (const auto& step : from.program_.steps) most = std::max(most, step.inputs.size());
       arena_->inputs.resize(most);
+      arena_->group_inputs.resize(from.program_.inputs.size());
     }
     if (arena_->size < size) {
       arena_->memory.reset();
@@ -69,9 +81,12 @@ Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId ou
     : Inference(graph, parameters, output, kernels::convolution_from_environment()) {}
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution)
-    : program_(runtime::compile(graph, parameters, output, convolution)), memory_(planned(program_)) {}
+    : program_(runtime::compile(graph, parameters, output, convolution)),
+      memory_(planned(program_)),
+      group_(samples_together(program_, memory_)) {}
 
 Index Inference::arena_size(Index batch) const {
+  batch = std::min(batch, group_);
   Index scratch = 0;
   for (const auto& step : program_.steps)
     scratch = std::max(scratch, step.step->scratch(batch, Parallel::shared().threads()));
@@ -96,7 +111,14 @@ void Inference::run_step(const runtime::ProgramStep& step, std::span<const float
 
 void Inference::run(std::span<const float* const> inputs, Index batch, float* output) const {
   const Loan arena(*this, arena_size(batch));
-  for (const auto& step : program_.steps) run_step(step, inputs, batch, output, *arena);
+  std::vector<const float*>& from = (*arena).group_inputs;
+  for (Index begin = 0; begin < batch; begin += group_) {
+    for (std::size_t i = 0; i < inputs.size(); ++i) from[i] = inputs[i] + begin * program_.sizes[i];
+    const Index group = std::min(group_, batch - begin);
+    for (const auto& step : program_.steps)
+      run_step(step, from, group, output + begin * element_count(program_.output_shape), *arena);
+    if (group == batch - begin) break;
+  }
 }
 
 Tensor Inference::run(const std::vector<Tensor>& inputs) const {
@@ -121,6 +143,9 @@ Tensor Inference::run(const std::vector<Tensor>& inputs) const {
 
 std::vector<StepReport> Inference::report(Index batch) const {
   using Clock = std::chrono::steady_clock;
+  const double groups = static_cast<double>(batch) / static_cast<double>(std::min(batch, group_));
+  const double samples = static_cast<double>(batch);
+  batch = std::min(batch, group_);
   std::vector<Tensor> zeros;
   std::vector<const float*> inputs;
   for (Shape shape : program_.inputs) {
@@ -138,8 +163,8 @@ std::vector<StepReport> Inference::report(Index batch) const {
     for (const auto id : step.inputs) numbers += size(id);
     reports.push_back({.layer = step.layer,
                        .kernel = step.step->kernel(),
-                       .flops = step.step->flops() * static_cast<double>(batch),
-                       .bytes = 4 * numbers * static_cast<double>(batch) + step.step->weight_bytes(),
+                       .flops = step.step->flops() * samples,
+                       .bytes = 4 * numbers * samples + step.step->weight_bytes() * groups,
                        .milliseconds = std::numeric_limits<double>::infinity()});
   }
   const Loan arena(*this, arena_size(batch));
@@ -152,6 +177,7 @@ std::vector<StepReport> Inference::report(Index batch) const {
       reports[i].milliseconds =
           std::min(reports[i].milliseconds, std::chrono::duration<double, std::milli>(Clock::now() - start).count());
     }
+  for (auto& report : reports) report.milliseconds *= groups;
   return reports;
 }
 

@@ -22,7 +22,8 @@ struct StepReport {
 /// A graph compiled for inference in f32: kernels chosen, batch norms and activations fused, weights laid out for the
 /// kernels, memory planned. It keeps no reference to graph and parameters. Safe to share between threads: each run
 /// borrows an arena, and nothing is allocated once there are as many as runs at once. The same bits for any number of
-/// threads; a sample's result does not depend on the others of its batch.
+/// threads; a sample's result does not depend on the others of its batch. A batch goes through all steps in groups of
+/// samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
 class Inference {
  public:
   /// Throws Error for parameters that are not f32.
@@ -39,14 +40,14 @@ class Inference {
 
   /// Numbers of activations and scratch memory that a batch needs.
   Index arena_size(Index batch) const;
-  /// Every step, timed on zeros.
+  /// Every step, timed on zeros: what it takes for one group, times the groups of a batch.
   std::vector<StepReport> report(Index batch) const;
 
  private:
   struct Arena {
     AlignedFloats memory{};
     Index size = 0;
-    std::vector<const float*> inputs{};
+    std::vector<const float*> inputs{}, group_inputs{};  // of a step, of the graph
   };
   class Loan;
 
@@ -55,6 +56,7 @@ class Inference {
 
   runtime::Program program_;
   runtime::MemoryPlan memory_;
+  Index group_;
   mutable std::mutex mutex_{};
   mutable std::vector<std::unique_ptr<Arena>> free_{};
 };
