@@ -1,6 +1,9 @@
 #pragma once
+#include <span>
+
 #include "base/index.h"
 #include "base/parallel.h"
+#include "base/team.h"
 #include "semantics/aligned_array.h"
 
 namespace svnet {
@@ -15,6 +18,8 @@ class DistanceMatrix {
   const float* row(Index i) const { return values_.data() + i * stride_; }
   float* row(Index i) { return values_.data() + i * stride_; }
   float operator()(Index i, Index j) const { return row(i)[j]; }
+  /// All rows, and what fills them up.
+  std::span<float> values() { return {values_.data(), static_cast<std::size_t>(size_ * stride_)}; }
 
  private:
   Index size_, stride_;
@@ -23,9 +28,11 @@ class DistanceMatrix {
 
 /// The squared distances between the rows of features (n, dimension), float or double. Features are centred by their
 /// mean, products are accumulated in double, and only the distance is rounded to float32; rows that nearly coincide are
-/// subtracted directly, so that equal rows have distance 0. The same bits for any number of threads. Throws Error for
-/// an empty shape, for a feature that is not finite and for a distance beyond 1e30.
+/// subtracted directly, so that equal rows have distance 0. The same bits for any number of threads, and of processes:
+/// a team, all of which has the features, shares the work. Throws Error for an empty shape, for a feature that is not
+/// finite and for a distance beyond 1e30.
 template <class T>
-DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel);
+DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
+                                 Team& team = Alone::shared());
 
 }  // namespace svnet

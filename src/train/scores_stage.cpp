@@ -136,7 +136,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
                    const ScoresRun& run) {
   const auto& s = config.scores;
   const DistanceMatrix distances =
-      squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared());
+      squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared(), run.team);
   const ClusteringProblems problems = clustering_problems(dataset, excluded, s);
   const ScoreOptions options = score_options(config, features.dimension);
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
