@@ -9,6 +9,7 @@
 #include "io/checkpoint.h"
 #include "models/trained_graph.h"
 #include "nn/graph/run.h"
+#include "train/orientation.h"
 #include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
@@ -77,6 +78,8 @@ std::string Run::model_fingerprint() {
                            std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
   if (t.fine_tune != Config::Training::FineTune::none)
     hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
+  if (t.augmentation != Config::Training::Augmentation::none)
+    hash.update_field(joined("augmentation ", static_cast<int>(t.augmentation)));
   return hash.hex();
 }
 
@@ -120,7 +123,7 @@ Model Run::model(Resume resume) {
   if (config_.training.validation_categories > 0)
     validation_set.emplace(dataset_, *inputs, scores, validating, target, angles);
   const Graph trained = trained_graph(source.backbone.graph(), from, output, model.head);
-  say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " views to learn from",
+  say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
              validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
   if (team_.first()) write_model(path, model);
@@ -139,12 +142,16 @@ Model Run::trained_model() {
 
 std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeId from) {
   const Graph& graph = backbone.graph();
-  if (graph.node(from).name == backbone.output_name())
+  const int orientations = config_.training.augmentation == Config::Training::Augmentation::turns ? kOrientations : 1;
+  const bool all_frozen = graph.node(from).name == backbone.output_name();
+  if (all_frozen && orientations == 1)
     return std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
   if (std::holds_alternative<InputLayer>(graph.node(from).layer))
-    return std::make_unique<PictureInputs>(dataset_, backbone.preprocessing(), nullptr);
-  auto inputs = std::make_unique<PictureInputs>(dataset_, backbone.preprocessing(),
-                                                std::make_shared<Inference>(graph, backbone.parameters(), from));
+    return std::make_unique<PictureInputs>(dataset_, backbone.preprocessing(), nullptr,
+                                           PictureInputs::Options{.orientations = orientations});
+  auto inputs = std::make_unique<PictureInputs>(
+      dataset_, backbone.preprocessing(), std::make_shared<Inference>(graph, backbone.parameters(), from),
+      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
   std::vector<Index> top_views;
   for (const auto& pose : dataset_.poses)
     if (!held_out_[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
@@ -197,7 +204,8 @@ std::vector<double> Run::predicted_scores(const Model& model) {
     inputs =
         std::make_unique<PictureInputs>(dataset_, model.preprocessing,
                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
-                                                                    model.backbone_graph.find(model.backbone_output)));
+                                                                    model.backbone_graph.find(model.backbone_output)),
+                                        PictureInputs::Options{});
   const Index dimension = element_count(inputs->shape()), angles = angle_count(model.angles);
   const auto poses = std::span(dataset_.poses);
   std::vector<double> predicted;

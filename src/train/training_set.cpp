@@ -5,6 +5,7 @@
 
 #include "base/text.h"
 #include "semantics/score_sums.h"
+#include "train/orientation.h"
 
 namespace svnet {
 namespace {
@@ -27,9 +28,13 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, c
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
     if (!categories[static_cast<std::size_t>(view.category)] || !std::isfinite(targets[i])) continue;
-    Example example{.top_view = dataset.top_view(view.pose), .angles = {}, .target = static_cast<float>(targets[i])};
-    encode_angles(angles, view.theta_deg, view.phi_deg, example.angles);
-    examples_.push_back(example);
+    for (int orientation = 0; orientation < inputs.orientations(); ++orientation) {
+      Example example{.input = dataset.top_view(view.pose) * inputs.orientations() + orientation,
+                      .angles = {},
+                      .target = static_cast<float>(targets[i])};
+      encode_angles(angles, oriented_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
+      examples_.push_back(example);
+    }
   }
 }
 
@@ -37,14 +42,14 @@ TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) co
   const auto count = static_cast<Index>(examples.size());
   const Index angle_numbers = angle_count(angles_);
   Batch batch{{}, Tensor::empty({count, angle_numbers}), Tensor::empty({count, 1})};
-  std::vector<Index> top_views;
+  std::vector<Index> inputs;
   for (Index i = 0; i < count; ++i) {
     const Example& example = examples_[static_cast<std::size_t>(examples[static_cast<std::size_t>(i)])];
-    top_views.push_back(example.top_view);
+    inputs.push_back(example.input);
     std::copy_n(example.angles, angle_numbers, batch.angles.data<float>() + i * angle_numbers);
     batch.targets.data<float>()[i] = example.target;
   }
-  batch.top_views = inputs_.batch(top_views);
+  batch.top_views = inputs_.batch(inputs);
   return batch;
 }
 

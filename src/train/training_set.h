@@ -11,7 +11,8 @@ namespace svnet {
 
 enum class Target { individual, global };
 
-/// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view.
+/// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view, in every orientation
+/// that the inputs have.
 class TrainingSet {
  public:
   /// The views of `categories` that have a score. Rows of scores are the dataset's views (Error where they are not).
@@ -33,7 +34,7 @@ class TrainingSet {
 
  private:
   struct Example {
-    Index top_view;
+    Index input;
     float angles[3];
     float target;
   };

@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "io/image_file.h"
+#include "train/orientation.h"
 #include "train/training_set.h"
 
 namespace svnet {
@@ -31,39 +32,53 @@ Tensor FeatureInputs::batch(std::span<const Index> views) const {
 }
 
 PictureInputs::PictureInputs(const ViewDataset& dataset, const Preprocessing& preprocessing,
-                             std::shared_ptr<const Inference> frozen)
+                             std::shared_ptr<const Inference> frozen, const Options& options)
     : dataset_(dataset),
       preprocessing_(preprocessing),
       frozen_(std::move(frozen)),
-      kept_row_(dataset.views.size(), -1) {}
+      options_(options),
+      kept_row_(dataset.views.size() * static_cast<std::size_t>(options.orientations), -1) {
+  check(options.orientations == 1 || preprocessing.height == preprocessing.width, "[inputs] pictures of ",
+        preprocessing.height, "x", preprocessing.width, " cannot be turned; only square ones can");
+}
 
 Shape PictureInputs::shape() const {
-  return frozen_ ? frozen_->output_shape() : Shape{preprocessing_.height, preprocessing_.width, 3};
+  const Shape shape = frozen_ ? frozen_->output_shape() : Shape{preprocessing_.height, preprocessing_.width, 3};
+  return options_.flat ? Shape{element_count(shape)} : shape;
 }
 
-Tensor PictureInputs::made(std::span<const Index> views) const {
-  const auto count = static_cast<Index>(views.size());
+Tensor PictureInputs::made(std::span<const Index> inputs) const {
+  const auto count = static_cast<Index>(inputs.size());
   Tensor pixels = Tensor::empty({count, preprocessing_.height, preprocessing_.width, 3});
   Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) {
-    const View& view = dataset_.views[static_cast<std::size_t>(views[static_cast<std::size_t>(i)])];
-    prepare(preprocessing_, read_image(dataset_.root / view.path), pixels.data<float>() + i * preprocessing_.size());
+    const Index input = inputs[static_cast<std::size_t>(i)];
+    const View& view = dataset_.views[static_cast<std::size_t>(input / options_.orientations)];
+    float* to = pixels.data<float>() + i * preprocessing_.size();
+    prepare(preprocessing_, read_image(dataset_.root / view.path), to);
+    if (input % options_.orientations == 0) return;
+    const std::vector<float> as_taken(to, to + preprocessing_.size());
+    orient(static_cast<int>(input % options_.orientations), preprocessing_.width, as_taken.data(), to);
   });
-  return frozen_ ? frozen_->run({pixels}) : pixels;
+  return (frozen_ ? frozen_->run({pixels}) : pixels).reshaped(batched(count, shape()));
 }
 
-Tensor PictureInputs::batch(std::span<const Index> views) const {
-  const auto row_of = [&](Index view) { return kept_row_[static_cast<std::size_t>(view)]; };
-  if (!std::all_of(views.begin(), views.end(), [&](Index view) { return row_of(view) >= 0; })) return made(views);
+Tensor PictureInputs::batch(std::span<const Index> inputs) const {
+  const auto row_of = [&](Index input) { return kept_row_[static_cast<std::size_t>(input)]; };
+  if (!std::all_of(inputs.begin(), inputs.end(), [&](Index input) { return row_of(input) >= 0; })) return made(inputs);
   const Index size = element_count(shape());
-  Tensor batch = Tensor::empty(batched(static_cast<Index>(views.size()), shape()));
-  for (std::size_t i = 0; i < views.size(); ++i)
-    std::copy_n(kept_.data<float>() + row_of(views[i]) * size, size,
+  Tensor batch = Tensor::empty(batched(static_cast<Index>(inputs.size()), shape()));
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    std::copy_n(kept_.data<float>() + row_of(inputs[i]) * size, size,
                 batch.data<float>() + static_cast<Index>(i) * size);
   return batch;
 }
 
 void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages, Team& team) {
-  const auto count = static_cast<Index>(views.size());
+  std::vector<Index> inputs;
+  for (const Index view : views)
+    for (int orientation = 0; orientation < options_.orientations; ++orientation)
+      inputs.push_back(view * options_.orientations + orientation);
+  const auto count = static_cast<Index>(inputs.size());
   const Index size = element_count(shape());
   Tensor kept = Tensor::zeros(batched(count, shape()));
   const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
@@ -73,14 +88,15 @@ void PictureInputs::keep(const std::vector<Index>& views, const Messages& messag
   for (Index begin = first; begin < last; begin += kBatch) {
     const Index end = std::min(begin + kBatch, last);
     const Tensor part =
-        made(std::span(views).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+        made(std::span(inputs).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
     std::copy_n(part.data<float>(), part.size(), kept.data<float>() + begin * size);
     progress.update(end - first);
   }
   team.gather({kept.data<float>(), static_cast<std::size_t>(kept.size())});
   kept_ = kept;
   std::fill(kept_row_.begin(), kept_row_.end(), -1);
-  for (std::size_t i = 0; i < views.size(); ++i) kept_row_[static_cast<std::size_t>(views[i])] = static_cast<Index>(i);
+  for (std::size_t i = 0; i < inputs.size(); ++i)
+    kept_row_[static_cast<std::size_t>(inputs[i])] = static_cast<Index>(i);
 }
 
 }  // namespace svnet

@@ -11,14 +11,16 @@
 
 namespace svnet {
 
-/// What a trained graph sees of the views of a dataset, by their numbers: its first input.
+/// What a trained graph sees of the views of a dataset, each in so many orientations: its first input. Input number
+/// view · orientations + orientation.
 class ViewInputs {
  public:
   virtual ~ViewInputs() = default;
+  virtual int orientations() const { return 1; }
   /// Of one view.
   virtual Shape shape() const = 0;
-  /// (views, shape...).
-  virtual Tensor batch(std::span<const Index> views) const = 0;
+  /// (inputs, shape...).
+  virtual Tensor batch(std::span<const Index> inputs) const = 0;
 };
 
 /// Features that were extracted before.
@@ -27,33 +29,40 @@ class FeatureInputs : public ViewInputs {
   /// Rows of the features are the dataset's views (Error where they are not). Keeps a reference to the features.
   FeatureInputs(const ViewDataset& dataset, const Features& features);
   Shape shape() const override { return {features_.dimension}; }
-  Tensor batch(std::span<const Index> views) const override;
+  Tensor batch(std::span<const Index> inputs) const override;
 
  private:
   const Features& features_;
 };
 
-/// Pictures, read whenever they are asked for, and what frozen layers make of them. A view's numbers do not depend on
-/// the views that are asked for with it.
+/// Pictures, read whenever they are asked for, and what frozen layers make of them. What an input is does not depend on
+/// the inputs that are asked for with it.
 class PictureInputs : public ViewInputs {
  public:
-  /// Without frozen layers the input are the pixels. Keeps a reference to the dataset.
-  PictureInputs(const ViewDataset& dataset, const Preprocessing& preprocessing,
-                std::shared_ptr<const Inference> frozen);
+  struct Options {
+    int orientations = 1;  ///< at most kOrientations; with more than one the network's pictures must be square
+    bool flat = false;     ///< rows of numbers, as features are
+  };
+  /// Without frozen layers the input are the pixels. Keeps a reference to the dataset. Throws Error where pictures must
+  /// be square and are not.
+  PictureInputs(const ViewDataset& dataset, const Preprocessing& preprocessing, std::shared_ptr<const Inference> frozen,
+                const Options& options);
+  int orientations() const override { return options_.orientations; }
   Shape shape() const override;
-  Tensor batch(std::span<const Index> views) const override;
+  Tensor batch(std::span<const Index> inputs) const override;
 
-  /// Computes the inputs of these views once and for all, and keeps them in memory; a team shares the work.
+  /// Computes these views in all orientations once and for all, and keeps them in memory; a team shares the work.
   void keep(const std::vector<Index>& views, const Messages& messages, Team& team);
 
  private:
-  Tensor made(std::span<const Index> views) const;
+  Tensor made(std::span<const Index> inputs) const;
 
   const ViewDataset& dataset_;
   Preprocessing preprocessing_;
   std::shared_ptr<const Inference> frozen_;
   Tensor kept_{};
-  std::vector<Index> kept_row_;  // of each view, -1 where it is not kept
+  Options options_;
+  std::vector<Index> kept_row_;  // of each input, -1 where it is not kept
 };
 
 }  // namespace svnet

@@ -1,5 +1,6 @@
 #include "train/run.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -10,6 +11,7 @@
 #include "predict/predictor.h"
 #include "small_dataset.h"
 #include "train/scores_stage.h"
+#include "train/view_inputs.h"
 
 using namespace svnet;
 
@@ -175,6 +177,60 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
     const Tensor found = predictor.embed(top), old = untrained.features(untrained.batch(std::span(&top, 1)));
     CHECK_FALSE(std::equal(old.data<float>(), old.data<float>() + old.size(), found.data<float>()));
   }
+}
+
+TEST_CASE("top images in every orientation are eight times the examples, the same for any number of threads") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.training.fine_tune = GENERATE(Config::Training::FineTune::none, Config::Training::FineTune::last_block,
+                                       Config::Training::FineTune::all);
+  config.training.epochs = 1;
+  const auto examples = [&](const std::string& folder) {
+    Log log;
+    Run(config, read_view_dataset(config.dataset.root), temporary.path() / folder, log.messages).model();
+    for (const auto& line : log.lines)
+      if (line.starts_with("SV-net: ")) return std::stoi(line.substr(line.find(", ") + 2));
+    return 0;
+  };
+  const int as_taken = examples("plain");
+  CHECK(as_taken > 0);
+  config.training.augmentation = Config::Training::Augmentation::turns;
+  CHECK(examples("plain") == 8 * as_taken);  // and the model of "plain" is not taken for its own
+
+  const int threads_before = Parallel::shared().threads();
+  std::vector<std::string> expected;
+  for (int threads : {1, 3}) {
+    Parallel::shared().resize(threads);
+    const auto hashes = results(config, temporary.path() / ("run" + std::to_string(threads)), {});
+    if (expected.empty()) expected = hashes;
+    CHECK(hashes == expected);
+  }
+  Parallel::shared().resize(threads_before);
+}
+
+TEST_CASE("inputs that are kept in every orientation are those made when asked for") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const ViewDataset dataset = read_view_dataset(temporary.path() / "data");
+  const Backbone backbone = random_backbone("tiny_xception", "block4_act", 3);
+  const auto frozen =
+      std::make_shared<Inference>(backbone.graph(), backbone.parameters(), backbone.graph().find("block4_act"));
+  PictureInputs inputs(dataset, backbone.preprocessing(), frozen, {.orientations = 8, .flat = true});
+  const std::vector<Index> wanted{9, 8, 15};  // of view 1
+  const Tensor made = inputs.batch(wanted);
+  inputs.keep({1}, {}, Alone::shared());
+  const Tensor kept = inputs.batch(wanted);
+  CHECK(made.shape() == kept.shape());
+  CHECK(std::ranges::equal(made.values<float>(), kept.values<float>()));
+  const Tensor as_taken =
+      PictureInputs(dataset, backbone.preprocessing(), frozen, {.flat = true}).batch(std::vector<Index>{1});
+  const auto row = [&](Index i) {
+    return made.values<float>().subspan(static_cast<std::size_t>(i * made.dim(1)),
+                                        static_cast<std::size_t>(made.dim(1)));
+  };
+  CHECK(std::ranges::equal(row(1), as_taken.values<float>()));
+  CHECK_FALSE(std::ranges::equal(row(0), row(1)));
 }
 
 TEST_CASE("a damaged stage is made again") {

@@ -46,6 +46,7 @@ struct Config {
     enum class Optimizer { adam, sgd };
     enum class Schedule { constant, step, cosine };
     enum class FineTune { none, last_block, all };
+    enum class Augmentation { none, turns };
     Index epochs = 10;
     Index batch_size = 32;
     double learning_rate = 1e-3;
@@ -56,6 +57,7 @@ struct Config {
     double step_factor = 0.1;
     Index validation_categories = 0;
     FineTune fine_tune = FineTune::none;
+    Augmentation augmentation = Augmentation::none;
   };
   struct Evaluation {
     enum class Nmi { arithmetic, geometric };

@@ -126,6 +126,8 @@ std::vector<BoundKey> bound_keys(Config& c) {
             "Random training categories set aside to choose the best checkpoint by. 0: none."),
       choice("training.fine_tune", c.training.fine_tune, {"none", "last_block", "all"},
              "What is trained of sv_net.backbone, together with the head."),
+      choice("training.augmentation", c.training.augmentation, {"none", "turns"},
+             "Turns: each top image in its eight orientations, quarter turns and mirror images, theta with it."),
 
       whole("evaluation.problems", c.evaluation.problems, kFromOne, "Clustering problems behind each table."),
       pipelines("evaluation.pipelines", c.evaluation.pipelines,

@@ -1,0 +1,28 @@
+#include "train/orientation.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace svnet {
+
+void orient(int orientation, Index side, const float* from, float* to) {
+  const Index end = side - 1;
+  for (Index i = 0; i < side; ++i)
+    for (Index j = 0; j < side; ++j) {
+      Index row = i, column = j;
+      for (int turn = 0; turn < orientation % 4; ++turn) {
+        const Index above = row;
+        row = column;
+        column = end - above;
+      }
+      if (orientation >= 4) column = end - column;
+      std::copy_n(from + (row * side + column) * 3, 3, to + (i * side + j) * 3);
+    }
+}
+
+double oriented_theta_deg(int orientation, double theta_deg) {
+  const double theta = std::fmod((orientation >= 4 ? 180 - theta_deg : theta_deg) + 90 * (orientation % 4), 360.0);
+  return theta < 0 ? theta + 360 : theta;
+}
+
+}  // namespace svnet
