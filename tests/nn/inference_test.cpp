@@ -1,5 +1,6 @@
 #include "nn/runtime/inference.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstdlib>
@@ -70,6 +71,30 @@ Graph all_layers() {
 }
 
 }  // namespace
+
+TEST_CASE("a batch that is taken in groups gives what each sample gives alone") {
+  const Graph graph = all_layers();
+  for (const char* name : {"after_sum", "average"}) {  // below dense layers, which want the whole batch
+    const Inference inference(graph, drawn(graph), graph.find(name));
+    REQUIRE(inference.arena_size(10000) == inference.arena_size(20000));
+    Index batch = 1;
+    while (inference.arena_size(batch) < inference.arena_size(10000)) ++batch;  // the size of a group
+    batch += batch / 2;
+    Shape shape = inference.input_shapes()[0];
+    shape.insert(shape.begin(), batch);
+    const Tensor images = random_tensor(shape, 7, DType::f32);
+    const Tensor together = inference.run({images});
+    const Index in = images.size() / batch, out = together.size() / batch;
+    for (Index i = 0; i < batch; ++i) {
+      Tensor image = Tensor::empty({1, shape[1], shape[2], shape[3]});
+      std::copy_n(images.data<float>() + i * in, in, image.data<float>());
+      const Tensor alone = inference.run({image});
+      REQUIRE(std::equal(alone.data<float>(), alone.data<float>() + out, together.data<float>() + i * out));
+    }
+  }
+  const Inference dense(graph, drawn(graph), graph.output());
+  CHECK(dense.arena_size(2000) > dense.arena_size(1000));
+}
 
 TEST_CASE("a compiled graph computes what its layers say, whichever layer is the output") {
   const Graph graph = all_layers();
