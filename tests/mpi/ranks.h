@@ -4,6 +4,7 @@
 #include <string>
 
 #include "mpi/mpi_team.h"
+#include "temporary_folder.h"
 
 namespace svnet {
 
@@ -22,8 +23,10 @@ inline bool can_run_ranks() {
 
 /// The command line that runs `command` as so many processes on this machine.
 inline std::string with_ranks(int ranks, const std::string& command) {
+  // Where all mpirun of a machine share a folder, one may remove it while another makes it.
+  static const TemporaryFolder folder;
   // Open MPI leaves memory of its plug-ins behind, which is no leak of ours.
-  return "ASAN_OPTIONS=detect_leaks=0 mpirun -n " + std::to_string(ranks) +
+  return "TMPDIR=" + folder.path().string() + " ASAN_OPTIONS=detect_leaks=0 mpirun -n " + std::to_string(ranks) +
          " --allow-run-as-root --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 " + command;
 }
 
