@@ -117,7 +117,6 @@ void Inference::run(std::span<const float* const> inputs, Index batch, float* ou
     const Index group = std::min(group_, batch - begin);
     for (const auto& step : program_.steps)
       run_step(step, from, group, output + begin * element_count(program_.output_shape), *arena);
-    if (group == batch - begin) break;
   }
 }
 

@@ -168,6 +168,13 @@ Index winograd_scratch(const Window& window, const WinogradWeights& weights, int
 
 namespace {
 
+/// The outputs of tiles [first, last) in the panels [panel, end), whose products follow each other.
+void transform_panels(const WinogradPlan& plan, const float* products, const WinogradWeights& weights, Index first,
+                      Index last, Index panel, Index end, const WinogradFinish& finish, float* y) {
+  for (; panel < end; ++panel, products += plan.output_size(last - first)) HWY_DYNAMIC_DISPATCH(transform_outputs)
+  (plan, products, weights.bias.get() + panel * kPanel, first, last, panel, finish, y);
+}
+
 /// A task is a block of tiles.
 void by_tiles(Parallel& parallel, const WinogradPlan& plan, const float* x, const WinogradWeights& weights,
               const WinogradFinish& finish, float* y, float* scratch) {
@@ -177,14 +184,12 @@ void by_tiles(Parallel& parallel, const WinogradPlan& plan, const float* x, cons
     float* points = scratch + worker * plan.worker_scratch();
     float* products = points + plan.input_size(plan.block);
     winograd_input_points(plan, x, first, last, first, last, points);
-    for (Index panel = 0, count = together; panel < all; panel += count) {
-      if (panel + count > all) count = 1;
+    for (Index panel = 0; panel < all; panel += together) {
+      const Index end = std::min(panel + together, all);
+      const PanelWeights transformed{weights.panels.get() + panel * per_panel, weights.c * kPanel, per_panel};
       HWY_DYNAMIC_DISPATCH(multiply_points)
-      (plan, last - first, points, 0, weights.c,
-       {weights.panels.get() + panel * per_panel, weights.c * kPanel, per_panel}, count, products);
-      for (Index i = 0; i < count; ++i) HWY_DYNAMIC_DISPATCH(transform_outputs)
-      (plan, products + i * plan.output_size(last - first), weights.bias.get() + (panel + i) * kPanel, first, last,
-       panel + i, finish, y);
+      (plan, last - first, points, 0, weights.c, transformed, end - panel, products);
+      transform_panels(plan, products, weights, first, last, panel, end, finish, y);
     }
   });
 }
@@ -193,28 +198,27 @@ void by_tiles(Parallel& parallel, const WinogradPlan& plan, const float* x, cons
 void by_channels(Parallel& parallel, const WinogradPlan& plan, const float* x, const WinogradWeights& weights,
                  const WinogradFinish& finish, float* y, float* scratch) {
   float* points = scratch + parallel.threads() * plan.worker_scratch();
-  const Index together =
-      plan.k / kPanel % HWY_DYNAMIC_DISPATCH(panels_together)() == 0 ? HWY_DYNAMIC_DISPATCH(panels_together)() : 1;
+  const Index together = HWY_DYNAMIC_DISPATCH(panels_together)();
   for (Index first = 0; first < plan.tiles(); first += plan.block) {
     const Index last = std::min(first + plan.block, plan.tiles());
     parallel.for_chunks(last - first, 4, [&](Index begin, Index end, int) {
       winograd_input_points(plan, x, first, last, first + begin, first + end, points);
     });
-    parallel.for_chunks(plan.k / kPanel, together, [&](Index panel, Index, int worker) {
+    parallel.for_chunks(plan.k / kPanel, together, [&](Index panel, Index panel_end, int worker) {
       float* transformed = scratch + worker * plan.worker_scratch();
       float* products = transformed + kMostTilePanels * plan.weight_size();
-      const float* taps = weights.panels.get() + panel * 9 * weights.c * kPanel;
       for (Index begin = 0; begin < weights.c; begin += plan.run) {
         const Index end = std::min(begin + plan.run, weights.c);
-        for (Index i = 0; i < together; ++i) HWY_DYNAMIC_DISPATCH(transform_weights)
-        (taps + i * 9 * weights.c * kPanel, begin, end, transformed + i * plan.weight_size(), plan.weight_point());
+        for (Index p = panel; p < panel_end; ++p) {
+          const float* taps = weights.panels.get() + p * 9 * weights.c * kPanel;
+          float* to = transformed + (p - panel) * plan.weight_size();
+          HWY_DYNAMIC_DISPATCH(transform_weights)(taps, begin, end, to, plan.weight_point());
+        }
         HWY_DYNAMIC_DISPATCH(multiply_points)
-        (plan, last - first, points, begin, end, {transformed, plan.weight_point(), plan.weight_size()}, together,
-         products);
+        (plan, last - first, points, begin, end, {transformed, plan.weight_point(), plan.weight_size()},
+         panel_end - panel, products);
       }
-      for (Index i = 0; i < together; ++i) HWY_DYNAMIC_DISPATCH(transform_outputs)
-      (plan, products + i * plan.output_size(last - first), weights.bias.get() + (panel + i) * kPanel, first, last,
-       panel + i, finish, y);
+      transform_panels(plan, products, weights, first, last, panel, panel_end, finish, y);
     });
   }
 }
