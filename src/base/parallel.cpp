@@ -7,6 +7,7 @@
 #include <exception>
 #include <limits>
 #include <mutex>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -79,26 +80,39 @@ bool spin_until(const Condition& condition) {
   return false;
 }
 
+/// The chunks that one worker takes first: worker i's are the i-th part of all, so that calls over the same rows give a
+/// worker the rows that lie in its cache.
+struct alignas(64) Part {
+  std::atomic<Index> next{0};
+  Index last = 0;
+};
+
 /// One call of for_chunks, shared by the threads that work on it.
 struct Job {
-  Index count, chunk, chunks;
+  Index count, chunk;
   Parallel::Body body;
-  std::atomic<Index> next;
+  std::span<Part> parts;  // one for each worker
   std::mutex mutex{};
   std::exception_ptr error{};
   Index error_chunk = std::numeric_limits<Index>::max();
 
+  /// Runs what is left of the worker's own part, then what is left of the others'.
   void work(int worker) {
     InsideBody inside;
-    for (Index i; (i = next.fetch_add(1, std::memory_order_relaxed)) < chunks;) {
-      try {
-        body(i * chunk, std::min(count, (i + 1) * chunk), worker);
-      } catch (...) {
-        std::lock_guard lock(mutex);
-        if (i < error_chunk) {
-          error_chunk = i;
-          error = std::current_exception();
-        }
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      Part& part = parts[(static_cast<std::size_t>(worker) + i) % parts.size()];
+      for (Index k; (k = part.next.fetch_add(1, std::memory_order_relaxed)) < part.last;) run(k, worker);
+    }
+  }
+
+  void run(Index k, int worker) {
+    try {
+      body(k * chunk, std::min(count, (k + 1) * chunk), worker);
+    } catch (...) {
+      std::lock_guard lock(mutex);
+      if (k < error_chunk) {
+        error_chunk = k;
+        error = std::current_exception();
       }
     }
   }
@@ -111,6 +125,7 @@ struct Parallel::Pool {
   std::mutex mutex{};
   std::condition_variable wake, done;
   std::vector<std::thread> helpers;
+  std::vector<Part> parts;  // of the open call
   std::atomic<int> threads{1};
   /// Which call it is, whether helpers may still join it, and how many are in it. A call closes once its caller finds
   /// no chunk left, and ends when the last helper has left: nobody waits for a helper that never came.
@@ -129,6 +144,7 @@ struct Parallel::Pool {
 
   void start(int count) {
     threads = count;
+    parts = std::vector<Part>(static_cast<std::size_t>(count));
     stop = false;
     may_spin = count <= affinity_count();
     for (int worker = 1; worker < count; ++worker) helpers.emplace_back([this, worker] { help(worker); });
@@ -161,7 +177,15 @@ struct Parallel::Pool {
     }
   }
 
-  void run(Job& whole) {
+  /// Runs the chunks [first, last).
+  void run(Job& whole, Index first, Index last) {
+    const Index workers = static_cast<Index>(parts.size()), chunks = last - first;
+    for (Index i = 0; i < workers; ++i) {
+      Part& part = parts[static_cast<std::size_t>(i)];
+      part.next.store(first + chunks * i / workers, std::memory_order_relaxed);
+      part.last = first + chunks * (i + 1) / workers;
+    }
+    whole.parts = parts;
     job = &whole;
     state = (state.load() / kCall + 1) * kCall | kOpen;
     if (sleepers > 0) {
@@ -223,12 +247,13 @@ void Parallel::for_chunks(Index count, Index chunk, Body body) {
     first = static_cast<Index>(share.first);
     chunks = static_cast<Index>(share.last);
   }
-  Job job{.count = count, .chunk = chunk, .chunks = chunks, .body = body, .next = first};
+  Job job{.count = count, .chunk = chunk, .body = body, .parts = {}};
   std::unique_lock call(pool_->call, std::defer_lock);
   if (chunks - first > 1 && !inside_body && !pool_->forked() && call.try_lock() && !pool_->helpers.empty()) {
-    pool_->run(job);
+    pool_->run(job, first, chunks);
   } else {
-    job.work(0);
+    InsideBody inside;
+    for (Index k = first; k < chunks; ++k) job.run(k, 0);
   }
   if (job.error) std::rethrow_exception(job.error);
 }

@@ -28,6 +28,8 @@ class Parallel {
   void resize(int threads);
 
   /// Runs body on [0, chunk), [chunk, 2 chunk), … up to `count`, in any order, and returns when all are done.
+  /// Worker i begins with the i-th part of the chunks and helps the others afterwards, so that calls over the same rows
+  /// find them in the same caches.
   /// If bodies throw, the exception of the lowest chunk is rethrown. Allocates nothing.
   void for_chunks(Index count, Index chunk, Body body);
 
