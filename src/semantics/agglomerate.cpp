@@ -7,7 +7,10 @@
 #include "semantics/agglomerate.h"
 
 #include <algorithm>
+#include <bit>
 #include <limits>
+
+#include "semantics/lower_triangle.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "semantics/agglomerate.cpp"
@@ -32,29 +35,39 @@ HWY_INLINE IntVector positions_from(Index first) {
   return hn::Add(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(first)));
 }
 
-/// The smallest value of lanes and positions seen so far; of equal ones the first.
-struct Minimum {
-  FloatVector value;
-  IntVector position;
+/// Bit i is lane i.
+HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
+  std::uint8_t bytes[8];
+  hn::StoreMaskBits(Floats(), mask, bytes);
+  if constexpr (hn::MaxLanes(Floats()) > 8) return std::uint64_t{bytes[0]} | std::uint64_t{bytes[1]} << 8;
+  return bytes[0];
+}
 
-  Minimum()
-      : value(hn::Set(Floats(), kInfinity)), position(hn::Set(Ints(), std::numeric_limits<std::int32_t>::max())) {}
+/// How many vectors the slots take: kVectors where it is known when the code is made, 0 where it is not.
+template <int kVectors>
+HWY_INLINE Index vectors(const AgglomerationState& s) {
+  const auto lanes = static_cast<Index>(hn::Lanes(Floats()));
+  return kVectors > 0 ? kVectors : (s.n + lanes - 1) / lanes;
+}
 
-  /// Positions must grow from call to call.
-  HWY_INLINE void add(FloatVector values, IntVector positions) {
-    const auto smaller = hn::Lt(values, value);
-    value = hn::IfThenElse(smaller, values, value);
-    position = hn::IfThenElse(hn::RebindMask(Ints(), smaller), positions, position);
+/// The first slot behind `after` (-1: the first of all) that holds `wanted`; n if there is none. Takes no branch that
+/// depends on what they hold.
+template <int kVectors>
+HWY_INLINE Index first_equal(const AgglomerationState& s, const float* values, Index after, FloatVector wanted) {
+  const Floats d;
+  const auto lanes = static_cast<Index>(hn::Lanes(d)), count = vectors<kVectors>(s), of_word = 64 / lanes;
+  Index found = s.n;
+  for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
+    std::uint64_t bits = 0;
+    for (Index v = v0; v < std::min(count, v0 + of_word); ++v)
+      bits |= bits_of(hn::Eq(hn::Load(d, values + v * lanes), wanted)) << ((v - v0) * lanes);
+    const Index base = v0 * lanes, before = after - base;
+    const std::uint64_t behind = ~std::uint64_t{0} << (before & 63) << 1;
+    bits &= before < 0 ? ~std::uint64_t{0} : before > 63 ? 0 : behind;
+    found = bits != 0 ? base + std::countr_zero(bits) : found;
   }
-  /// Both end up in every lane. The position of infinity is the largest number.
-  HWY_INLINE void reduce() {
-    const auto smallest = hn::MinOfLanes(Floats(), value);
-    const auto here = hn::RebindMask(Ints(), hn::Eq(value, smallest));
-    const auto none = hn::Set(Ints(), std::numeric_limits<std::int32_t>::max());
-    position = hn::MinOfLanes(Ints(), hn::IfThenElse(here, position, none));
-    value = smallest;
-  }
-};
+  return found;
+}
 
 /// Fills the upper half from the lower one by squares of four, where there are vectors of four.
 HWY_INLINE void mirror(const AgglomerationState& s) {
@@ -85,38 +98,36 @@ HWY_INLINE void mirror(const AgglomerationState& s) {
 #endif
 }
 
-/// Fills the upper half from the lower one and finds the nearest later slot of each slot.
+/// Takes the distances below the diagonal into the matrix, fills its upper half, and finds the nearest later slot of
+/// each slot.
 template <Linkage linkage>
 HWY_INLINE void start(const AgglomerationState& s) {
   const Floats d;
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
+  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = static_cast<std::int32_t>(j);
   for (Index i = 0; i < s.stride; i += lanes) {
-    hn::Store(hn::Set(d, 1.0f), d, s.size + i);
-    hn::Store(hn::Set(d, kInfinity), d, s.nearest_value + i);
-    hn::Store(hn::Set(di, -1), di, s.nearest + i);
-    const auto outside = hn::Gt(positions_from(i), hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(d, outside), hn::Set(d, kInfinity)), d, s.gone + i);
-  }
-  const float* next = s.triangle;
-  for (Index j = 0; j < s.n; ++j) {
-    s.merged_into[j] = static_cast<std::int32_t>(j);
-    float* row = s.dissimilarity + j * s.stride;
-    const float* from = s.triangle == nullptr ? row : next;
-    next += s.triangle == nullptr ? 0 : (j + 15) / 16 * 16;
-    const auto later = hn::Set(di, static_cast<std::int32_t>(j));
-    for (Index i = 0; i < j; i += lanes) {
-      auto value = hn::Load(d, from + i);
-      const auto inside = hn::RebindMask(d, hn::Lt(positions_from(i), later));
-      value = hn::IfThenElseZero(inside, value);
-      if (linkage == Linkage::average) value = hn::Sqrt(value);
-      hn::Store(value, d, row + i);
-      const auto best = hn::Load(d, s.nearest_value + i);
-      const auto nearer = hn::And(inside, hn::Lt(value, best));
-      hn::Store(hn::IfThenElse(nearer, value, best), d, s.nearest_value + i);
-      hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), later, hn::Load(di, s.nearest + i)), di, s.nearest + i);
+    const auto column = positions_from(i);
+    auto value = hn::Set(d, kInfinity);
+    auto position = hn::Set(di, -1);
+    if (i < s.n) hn::Store(hn::Zero(d), d, s.dissimilarity + i * s.stride + i);
+    for (Index j = i + 1; j < s.n; ++j) {
+      float* row = s.dissimilarity + j * s.stride;
+      const float* given = s.triangle == nullptr ? row : s.triangle + LowerTriangle::row_offset(j);
+      const auto slot = hn::Set(di, static_cast<std::int32_t>(j));
+      const auto inside = hn::RebindMask(d, hn::Lt(column, slot));
+      auto here = hn::IfThenElseZero(inside, hn::Load(d, given + i));
+      if (linkage == Linkage::average) here = hn::Sqrt(here);
+      hn::Store(here, d, row + i);
+      const auto nearer = hn::And(inside, hn::Lt(here, value));
+      value = hn::IfThenElse(nearer, here, value);
+      position = hn::IfThenElse(hn::RebindMask(di, nearer), slot, position);
     }
-    row[j] = 0;
+    hn::Store(value, d, s.nearest_value + i);
+    hn::Store(position, di, s.nearest + i);
+    hn::Store(hn::Set(d, 1.0f), d, s.size + i);
+    const auto outside = hn::Gt(column, hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
+    hn::Store(hn::IfThenElseZero(hn::RebindMask(d, outside), hn::Set(d, kInfinity)), d, s.gone + i);
   }
   mirror(s);
 }
@@ -135,49 +146,69 @@ HWY_INLINE void set(std::int32_t* values, Index slot, IntVector value) {
   hn::Store(hn::IfThenElse(lane, value, hn::Load(d, values + first)), d, values + first);
 }
 
-HWY_INLINE void find_nearest(const AgglomerationState& s, Index a) {
+/// Two clusters that may be the nearest: a slot and the later one that its bound belongs to.
+struct Candidate {
+  Index slot, nearest;
+};
+
+/// A number that slots have, and the first slot that has it.
+struct Smallest {
+  FloatVector value;  // in every lane
+  Index slot;
+};
+
+template <int kVectors>
+HWY_INLINE Smallest smallest_bound(const AgglomerationState& s) {
   const Floats d;
-  const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  const float* row = s.dissimilarity + a * s.stride;
-  const auto slot = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
-  const Index first = a & -lanes;
-  auto position = positions_from(first);
-  Minimum nearest;
-  nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot)),
-                             hn::Add(hn::Load(d, row + first), hn::Load(d, s.gone + first)), hn::Set(d, kInfinity)),
-              position);
-  for (Index i = first + lanes; i < s.n; i += lanes) {
-    position = hn::Add(position, step);
-    nearest.add(hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i)), position);
-  }
-  nearest.reduce();
-  set(s.nearest_value, a, nearest.value);
-  set(s.nearest, a, nearest.position);
+  auto value = hn::Load(d, s.nearest_value);
+  for (Index v = 1; v < vectors<kVectors>(s); ++v) value = hn::Min(value, hn::Load(d, s.nearest_value + v * lanes));
+  value = hn::MinOfLanes(d, value);
+  return {value, first_equal<kVectors>(s, s.nearest_value, -1, value)};
 }
 
-/// The slot with the smallest bound; of equal ones the first.
-HWY_INLINE Index smallest_bound(const AgglomerationState& s) {
+HWY_INLINE bool up_to_date(const AgglomerationState& s, const Candidate& c) {
+  return s.gone[c.nearest] == 0 && s.dissimilarity[c.slot * s.stride + c.nearest] == s.nearest_value[c.slot];
+}
+
+/// Gives slot a its nearest later slot, whose distance is the smallest lane of `later`; returns a, or `other`, the slot
+/// with the smallest of the other bounds.
+template <int kVectors>
+HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, FloatVector later, const Smallest& other) {
+  later = hn::MinOfLanes(Floats(), later);
+  const Index nearest = first_equal<kVectors>(s, s.dissimilarity + a * s.stride, a, later);
+  set(s.nearest_value, a, later);
+  set(s.nearest, a, hn::Set(Ints(), static_cast<std::int32_t>(nearest)));
+  const float of_a = hn::GetLane(later), of_other = hn::GetLane(other.value);
+  const bool is_a = of_a < of_other || (of_a == of_other && a < other.slot);
+  return is_a ? Candidate{a, nearest} : Candidate{other.slot, s.nearest[other.slot]};
+}
+
+/// Brings the bound of slot a up to date; returns the candidate afterwards.
+template <int kVectors>
+HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
   const Floats d;
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
-  const auto step = hn::Set(di, static_cast<std::int32_t>(lanes));
+  const auto infinity = hn::Set(d, kInfinity);
+  set(s.nearest_value, a, infinity);
+  const Smallest other = smallest_bound<kVectors>(s);
+  float* row = s.dissimilarity + a * s.stride;
+  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
+  auto later = infinity;
   auto position = hn::Iota(di, 0);
-  Minimum smallest;
-  for (Index i = 0; i < s.n; i += lanes, position = hn::Add(position, step))
-    smallest.add(hn::Load(d, s.nearest_value + i), position);
-  smallest.reduce();
-  return hn::GetLane(smallest.position);
+  for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+    const Index i = v * lanes;
+    const auto value = hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i));
+    hn::Store(value, d, row + i);
+    later = hn::Min(later, hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity));
+  }
+  return conclude<kVectors>(s, a, later, other);
 }
 
-HWY_INLINE bool up_to_date(const AgglomerationState& s, Index a) {
-  const Index b = s.nearest[a];
-  return s.gone[b] == 0 && s.dissimilarity[a * s.stride + b] == s.nearest_value[a];
-}
-
-/// Merges slot b into the earlier slot a; returns the slot with the smallest bound afterwards.
-template <Linkage linkage>
-HWY_INLINE Index merge(const AgglomerationState& s, Index a, Index b) {
+/// Merges slot b into the earlier slot a; returns the candidate afterwards.
+template <Linkage linkage, int kVectors>
+HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
   const Floats d;
   const Ints di;
   const auto lanes = static_cast<Index>(hn::Lanes(d));
@@ -190,11 +221,20 @@ HWY_INLINE Index merge(const AgglomerationState& s, Index a, Index b) {
   set(s.gone, b, infinity);
   set(s.nearest_value, b, infinity);
   set(s.nearest_value, a, infinity);  // until it is known again
+  Smallest other = smallest_bound<kVectors>(s);
 
+  auto later = infinity;
+  auto any_nearer = hn::Lt(infinity, infinity);
   auto position = hn::Iota(di, 0);
-  Minimum nearest, smallest;
-  /// The distances from the merged cluster to the slots of a vector, infinite where they are gone.
-  const auto merged = [&](Index i) HWY_ATTR {
+  /// Earlier slots may find the merged cluster nearest, by rounding or in a tie.
+  const auto finds_it_nearer = [&](Index i, FloatVector value) HWY_ATTR {
+    const auto bound = hn::Load(d, s.nearest_value + i);
+    const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Gt(hn::Load(di, s.nearest + i), slot_a)));
+    return hn::And(hn::Lt(value, infinity),
+                   hn::And(hn::RebindMask(d, hn::Gt(slot_a, position)), hn::Or(hn::Lt(value, bound), tied)));
+  };
+  for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+    const Index i = v * lanes;
     const auto to_a = hn::Load(d, row_a + i), to_b = hn::Load(d, row_b + i);
     FloatVector value;
     if constexpr (linkage == Linkage::ward) {
@@ -208,37 +248,24 @@ HWY_INLINE Index merge(const AgglomerationState& s, Index a, Index b) {
     } else {
       value = hn::Min(to_a, to_b);
     }
+    value = hn::Add(value, hn::Load(d, s.gone + i));
     hn::Store(value, d, row_a + i);
-    return hn::Add(value, hn::Load(d, s.gone + i));
-  };
-  /// Earlier slots may find the merged cluster nearest, by rounding or in a tie.
-  const auto update_bounds = [&](Index i, FloatVector value, auto allowed) HWY_ATTR {
-    const auto bound = hn::Load(d, s.nearest_value + i);
-    const auto of_bound = hn::Load(di, s.nearest + i);
-    const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Gt(of_bound, slot_a)));
-    const auto nearer = allowed(hn::Or(hn::Lt(value, bound), tied));
-    const auto new_bound = hn::IfThenElse(nearer, value, bound);
-    hn::Store(new_bound, d, s.nearest_value + i);
-    hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), slot_a, of_bound), di, s.nearest + i);
-    smallest.add(new_bound, position);
-  };
-  const Index vector_of_a = a & -lanes;
-  Index i = 0;
-  for (; i < vector_of_a; i += lanes, position = hn::Add(position, step))
-    update_bounds(i, merged(i), [](auto nearer) HWY_ATTR { return nearer; });
-  const auto value = merged(i);
-  update_bounds(i, value,
-                [&](auto nearer) HWY_ATTR { return hn::And(nearer, hn::RebindMask(d, hn::Gt(slot_a, position))); });
-  nearest.add(hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity), position);
-  for (i += lanes, position = hn::Add(position, step); i < s.n; i += lanes, position = hn::Add(position, step)) {
-    nearest.add(merged(i), position);
-    smallest.add(hn::Load(d, s.nearest_value + i), position);
+    any_nearer = hn::Or(any_nearer, finds_it_nearer(i, value));
+    later = hn::Min(later, hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity));
   }
-  nearest.reduce();
-  smallest.reduce();
-  set(s.nearest_value, a, nearest.value);
-  set(s.nearest, a, nearest.position);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, any_nearer))) {
+    position = hn::Iota(di, 0);
+    for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+      const Index i = v * lanes;
+      const auto value = hn::Load(d, row_a + i);
+      const auto nearer = finds_it_nearer(i, value);
+      hn::Store(hn::IfThenElse(nearer, value, hn::Load(d, s.nearest_value + i)), d, s.nearest_value + i);
+      hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), slot_a, hn::Load(di, s.nearest + i)), di, s.nearest + i);
+    }
+    other = smallest_bound<kVectors>(s);
+  }
   if (linkage == Linkage::ward || linkage == Linkage::average) set(s.size, a, both);
+  const Candidate next = conclude<kVectors>(s, a, later, other);
 
   float* HWY_RESTRICT to = s.dissimilarity + a;
   const Index stride = s.stride;
@@ -248,23 +275,45 @@ HWY_INLINE Index merge(const AgglomerationState& s, Index a, Index b) {
     to[2 * stride] = row_a[row + 2];
     to[3 * stride] = row_a[row + 3];
   }
-  const float of_slot_a = hn::GetLane(nearest.value), of_others = hn::GetLane(smallest.value);
-  const Index other = hn::GetLane(smallest.position);
-  return of_slot_a < of_others || (of_slot_a == of_others && a < other) ? a : other;
+  return next;
 }
 
-template <Linkage linkage>
+template <Linkage linkage, int kVectors>
 void agglomerate_by(Index k, const AgglomerationState& given) {
   const AgglomerationState s = given;  // vector stores may alias what they do not know to be here alone
   start<linkage>(s);
-  Index a = smallest_bound(s);
+  const Index first = smallest_bound<kVectors>(s).slot;
+  Candidate next{first, s.nearest[first]};
   for (Index clusters = s.n; clusters > k; --clusters) {
-    while (!up_to_date(s, a)) {
-      find_nearest(s, a);
-      a = smallest_bound(s);
-    }
-    a = merge<linkage>(s, a, s.nearest[a]);
+    while (!up_to_date(s, next)) next = search<kVectors>(s, next.slot);
+    next = merge<linkage, kVectors>(s, next.slot, next.nearest);
   }
+}
+
+/// Loops over a known number of vectors are unrolled: that is worth its code where few vectors hold a problem.
+template <Linkage linkage>
+void agglomerate_by(Index k, const AgglomerationState& s) {
+  if constexpr (hn::MaxLanes(Floats()) >= 8) {
+    switch (vectors<0>(s)) {
+      case 1:
+        return agglomerate_by<linkage, 1>(k, s);
+      case 2:
+        return agglomerate_by<linkage, 2>(k, s);
+      case 3:
+        return agglomerate_by<linkage, 3>(k, s);
+      case 4:
+        return agglomerate_by<linkage, 4>(k, s);
+      case 5:
+        return agglomerate_by<linkage, 5>(k, s);
+      case 6:
+        return agglomerate_by<linkage, 6>(k, s);
+      case 7:
+        return agglomerate_by<linkage, 7>(k, s);
+      case 8:
+        return agglomerate_by<linkage, 8>(k, s);
+    }
+  }
+  agglomerate_by<linkage, 0>(k, s);
 }
 
 void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {
