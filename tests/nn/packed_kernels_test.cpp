@@ -252,7 +252,11 @@ TEST_CASE("separable convolutions agree with their two halves") {
   for_instruction_sets([&](const std::string& isa) {
     for (const Window& w :
          {window(2, 9, 12, 24, 3, 1, Padding::same()), window(1, 10, 11, 40, 3, 2, Padding::of(0, 1, 0, 1)),
-          window(1, 7, 7, 16, 5, 1, Padding::valid()), window(3, 3, 2, 5, 3, 1, Padding::same())})
+          window(1, 7, 7, 16, 5, 1, Padding::valid()), window(3, 3, 2, 5, 3, 1, Padding::same()),
+          window(2, 5, 4, 21, 3, 1, Padding::same()), window(2, 1, 6, 16, 3, 1, Padding::same()),
+          window(1, 2, 23, 80, 3, 1, Padding::same()), window(2, 5, 7, 33, 3, 2, Padding::same()),
+          window(1, 6, 19, 70, 3, 2, Padding::same()), window(1, 6, 13, 18, 3, 2, Padding::valid()),
+          window(1, 8, 9, 16, 3, 1, Padding::of(1, 1, 0, 1))})
       for (bool relu : {false, true}) {
         const Index k = 19, c = w.c;
         INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << c << ", stride " << w.stride_h << ", relu "

@@ -27,6 +27,17 @@ struct Taps {
 
 using PixelSums = PanelVector[kPixels][kVectorsPerPanel];
 
+/// What a clamp leaves.
+struct Bounds {
+  PanelVector low, high;
+
+  explicit HWY_INLINE Bounds(Clamp clamp) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    low = hn::Set(PanelTag(), clamp == Clamp::none ? -kInfinity : 0.0f);
+    high = hn::Set(PanelTag(), clamp == Clamp::relu6 ? 6.0f : kInfinity);
+  }
+};
+
 template <bool kRelu>
 HWY_INLINE PanelVector input_vector(const float* x) {
   const PanelTag d;
@@ -53,119 +64,153 @@ HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, co
     }
 }
 
-/// Where a run of kPixels windows of width 3 and stride 1 lies in its row of the image: windows at the row's ends reach
-/// one column out of it.
-enum Edges { kInner = 0, kLeftmost = 1, kRightmost = 2 };
-
-/// The same for such a run: each input is read once for the three pixels that share it.
-template <bool kRelu, int kEdges>
-HWY_INLINE void add_rows_of_three(const Window& win, const Taps& t, const float* taps, const float* x, PixelSums& sum) {
+/// kCount neighbouring output pixels, the panels [c0, c1) of channels: any window. x at the first pixel's tap (0, 0),
+/// panels of y `apart` pixels from each other.
+template <int kCount, bool kRelu>
+HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
+                                   Index c0, Index c1, float* y, Index apart) {
   const PanelTag d;
-  const Index padded = panels(win.c) * kPanel;
-  const float* from = x + t.kh0 * win.w * win.c;
-  const float* tap = taps + t.kh0 * 3 * padded;
-  for (Index kh = t.kh0; kh < t.kh1; ++kh, from += win.w * win.c, tap += 3 * padded) {
-    PanelVector w[3][kVectorsPerPanel];
-    unrolled<3>([&](auto kw) HWY_ATTR {
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { w[kw][v] = hn::Load(d, tap + kw * padded + v * kLanes); });
+  const Bounds bounds(weights.clamp);
+  for (Index c = c0; c < c1; c += kPanel, y += kPanel * apart) {
+    PixelSums sum;
+    unrolled<kCount>([&](auto p) HWY_ATTR {
+      unrolled<kVectorsPerPanel>([&](auto v)
+                                     HWY_ATTR { sum[p][v] = hn::Load(d, weights.bias.get() + c + v * kLanes); });
     });
-    unrolled<kPixels + 2>([&](auto j) HWY_ATTR {
-      if constexpr (!((kEdges & kLeftmost) != 0 && j == 0) && !((kEdges & kRightmost) != 0 && j == kPixels + 1))
-        unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-          const auto value = input_vector<kRelu>(from + j * win.c + v * kLanes);
-          unrolled<3>([&](auto kw) HWY_ATTR {
-            constexpr int p = j - kw;
-            if constexpr (p >= 0 && p < kPixels) sum[p][v] = hn::MulAdd(value, w[kw][v], sum[p][v]);
-          });
-        });
+    add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
+    unrolled<kCount>([&](auto p) HWY_ATTR {
+      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
+        hn::Store(clamped(sum[p][v], bounds.low, bounds.high), d, y + p * kPanel + v * kLanes);
+      });
     });
   }
 }
 
-/// A window row as one of four kinds: any window, or a run for add_rows_of_three.
-constexpr int kAnyWindow = -1;
-
-/// kCount neighbouring output pixels, one panel of channels.
-template <int kCount, bool kRelu, int kEdges>
-HWY_INLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
-                                 Index c, PanelVector low, PanelVector high, float* y) {
-  const PanelTag d;
-  PixelSums sum;
-  unrolled<kCount>([&](auto p) HWY_ATTR {
-    unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR { sum[p][v] = hn::Load(d, weights.bias.get() + c + v * kLanes); });
-  });
-  if constexpr (kEdges == kAnyWindow)
-    add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
-  else
-    add_rows_of_three<kRelu, kEdges>(win, t, weights.taps.get() + c, x + c, sum);
-  unrolled<kCount>([&](auto p) HWY_ATTR {
-    unrolled<kVectorsPerPanel>(
-        [&](auto v) HWY_ATTR { hn::Store(clamped(sum[p][v], low, high), d, y + p * kPanel + v * kLanes); });
-  });
-}
-
-/// Where the channels [c0, c1) of a run of pixels come from and go to: x at the first pixel's tap (0, 0), panels of y
-/// `apart` pixels from each other.
-struct Run {
+/// A run of output pixels of a row, where windows are three columns wide and reach at most one column out of the image:
+/// the first one on the left, the last one on the right. One vector of channels; x at the first pixel's tap (0, 0).
+struct RowRun {
   const float* x;
-  Index c0, c1;
-  float* y;
-  Index apart;
+  Index row_stride, pixel_stride;  // of x
+  const float* taps;
+  Index tap_stride;
+  const float* bias;
+  bool cut_left, cut_right;  // the first and the last pixel's windows
 };
 
-template <int kCount, bool kRelu, int kEdges = kAnyWindow>
-HWY_NOINLINE void depthwise_run(const Window& win, const Taps& t, const DepthwiseTaps& weights, const Run& run) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+enum Cut { kWhole = 0, kCutLeft = 1, kCutRight = 2 };
+
+/// kPixels neighbouring pixels of it: each input is read once for the pixels that share it. w: the taps.
+template <bool kRelu, int kStride, int kRows, int kCut>
+HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, const PanelVector (&w)[kRows][3],
+                              const PanelVector bias, const Bounds& bounds, float* y) {
   const PanelTag d;
-  const auto low = hn::Set(d, weights.clamp == Clamp::none ? -kInfinity : 0.0f);
-  const auto high = hn::Set(d, weights.clamp == Clamp::relu6 ? 6.0f : kInfinity);
-  for (Index c = run.c0; c < run.c1; c += kPanel)
-    depthwise_pixels<kCount, kRelu, kEdges>(win, t, weights, run.x, c, low, high, run.y + (c - run.c0) * run.apart);
+  constexpr int kColumns = (kPixels - 1) * kStride + 3;
+  x += first * kStride * run.pixel_stride;
+  y += first * kPanel;
+  PanelVector sum[kPixels];
+  unrolled<kPixels>([&](auto p) HWY_ATTR { sum[p] = bias; });
+  unrolled<kRows>([&](auto kh) HWY_ATTR {
+    unrolled<kColumns>([&](auto j) HWY_ATTR {
+      if constexpr (!((kCut & kCutLeft) != 0 && j == 0) && !((kCut & kCutRight) != 0 && j == kColumns - 1)) {
+        const auto value = input_vector<kRelu>(x + kh * run.row_stride + j * run.pixel_stride);
+        unrolled<3>([&](auto kw) HWY_ATTR {
+          constexpr int from = j - kw, p = from / kStride;
+          if constexpr (from >= 0 && from % kStride == 0 && p < kPixels) sum[p] = hn::MulAdd(value, w[kh][kw], sum[p]);
+        });
+      }
+    });
+  });
+  unrolled<kPixels>([&](auto p) HWY_ATTR { hn::Store(clamped(sum[p], bounds.low, bounds.high), d, y + p * kPanel); });
 }
 
-/// By Edges.
-template <bool kRelu>
-constexpr decltype(&depthwise_run<kPixels, kRelu>) kRunsOfThree[] = {
-    &depthwise_run<kPixels, kRelu, kInner>, &depthwise_run<kPixels, kRelu, kLeftmost>,
-    &depthwise_run<kPixels, kRelu, kRightmost>, &depthwise_run<kPixels, kRelu, kLeftmost | kRightmost>};
+/// `count` pixels, at least kPixels, of which kRows rows of taps lie in the image; the panels [c0, c1) of channels. The
+/// run's x, taps and bias are those of channel 0.
+template <bool kRelu, int kStride, int kRows>
+HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c1, Index count, const Bounds& given,
+                                            float* y, Index apart) {
+  const PanelTag d;
+  const Bounds bounds = given;
+  // The last few share a run with some that are done already.
+  const Index last = count - kPixels, whole = run.cut_right ? last - 1 : last;
+  for (Index c = c0; c < c1; c += kPanel, y += kPanel * apart)
+    for (Index v = 0; v < kPanel; v += kLanes) {
+      PanelVector w[kRows][3];
+      unrolled<kRows>([&](auto kh) HWY_ATTR {
+        unrolled<3>([&](auto kw)
+                        HWY_ATTR { w[kh][kw] = hn::Load(d, run.taps + (kh * 3 + kw) * run.tap_stride + c + v); });
+      });
+      const auto bias = hn::Load(d, run.bias + c + v);
+      const float* x = run.x + c + v;
+      float* to = y + v;
+      if (last == 0 && run.cut_left && run.cut_right) {
+        three_columns<kRelu, kStride, kRows, kCutLeft | kCutRight>(run, x, 0, w, bias, bounds, to);
+        continue;
+      }
+      Index first = 0;
+      if (run.cut_left) {
+        three_columns<kRelu, kStride, kRows, kCutLeft>(run, x, 0, w, bias, bounds, to);
+        first = kPixels;
+      }
+      for (; first <= whole; first += kPixels)
+        three_columns<kRelu, kStride, kRows, kWhole>(run, x, first, w, bias, bounds, to);
+      if (run.cut_right)
+        three_columns<kRelu, kStride, kRows, kCutRight>(run, x, last, w, bias, bounds, to);
+      else if (first < count)
+        three_columns<kRelu, kStride, kRows, kWhole>(run, x, last, w, bias, bounds, to);
+    }
+}
+
+/// By the rows of taps that lie in the image, less one.
+template <bool kRelu, int kStride>
+constexpr decltype(&row_of_threes<kRelu, kStride, 3>) kRowsOfThrees[] = {
+    &row_of_threes<kRelu, kStride, 1>, &row_of_threes<kRelu, kStride, 2>, &row_of_threes<kRelu, kStride, 3>};
 
 /// Output positions [begin, end) as [C / 16][end - begin][16].
 template <bool kRelu>
 HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
                                 float* y) {
   const auto [inner0, inner1] = win.inner_columns();
-  // Then add_rows_of_three serves every column of a row.
-  const bool threes = win.kw == 3 && win.stride_w == 1 && inner0 <= 1 && inner1 >= win.ow - 1;
-  // A few panels of channels together: each pixel is then some lines in a row, which the hardware fetches ahead.
+  const bool threes =
+      win.kw == 3 && win.kh == 3 && (win.stride_w == 1 || win.stride_w == 2) && inner0 <= 1 && inner1 >= win.ow - 1;
+  const auto& rows_of_threes = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1> : kRowsOfThrees<kRelu, 2>;
+  const Bounds bounds(weights.clamp);
+  const Index apart = end - begin, step = win.stride_w * win.c, tap_stride = panels(win.c) * kPanel;
+  // A few panels of channels together: their part of the rows stays in L1 from one output row to the next.
   for (Index c0 = 0; c0 < win.c; c0 += kChannels) {
     const Index c1 = HWY_MIN(c0 + kChannels, win.c);
-    float* to = y + c0 * (end - begin);
+    float* to = y + c0 * apart;
     for (Index position = begin; position < end;) {
       const Index row = position / win.ow, n = row / win.oh, h = row % win.oh * win.stride_h - win.top;
       const Index start = position % win.ow, stop = HWY_MIN(win.ow, start + end - position);
-      const Index inside0 = threes ? start : HWY_MAX(start, inner0), inside1 = threes ? stop : HWY_MIN(stop, inner1);
       const Taps taps{HWY_MAX(Index{0}, -h), HWY_MIN(win.kh, win.h - h), 0, win.kw};
       const float* image_row = x + ((n * win.h + h) * win.w - win.left) * win.c;
-      const Index step = win.stride_w * win.c, apart = end - begin;
-      for (Index ow = start; ow < stop;) {
-        if (ow >= inside0 && ow < inside1 && inside1 - inside0 >= kPixels) {
-          // The last few share a run with some that are done already.
-          const Index first = HWY_MIN(ow, inside1 - kPixels);
-          const Run run{image_row + first * step, c0, c1, to + (first - start) * kPanel, apart};
-          if (threes)
-            kRunsOfThree<kRelu>[(first < inner0 ? kLeftmost : kInner) +
-                                (first + kPixels > inner1 ? kRightmost : kInner)](win, taps, weights, run);
-          else
-            depthwise_run<kPixels, kRelu>(win, taps, weights, run);
-          ow = first + kPixels;
-          continue;
+      const auto at = [&](Index ow) { return to + (ow - start) * kPanel; };
+      if (threes && stop - start >= kPixels && taps.kh1 > taps.kh0) {
+        const RowRun run{.x = image_row + taps.kh0 * win.w * win.c + start * step,
+                         .row_stride = win.w * win.c,
+                         .pixel_stride = win.c,
+                         .taps = weights.taps.get() + taps.kh0 * 3 * tap_stride,
+                         .tap_stride = tap_stride,
+                         .bias = weights.bias.get(),
+                         .cut_left = start<inner0, .cut_right = stop> inner1};
+        rows_of_threes[taps.kh1 - taps.kh0 - 1](run, c0, c1, stop - start, bounds, to, apart);
+      } else {
+        const Index inside0 = HWY_MAX(start, inner0), inside1 = HWY_MIN(stop, inner1);
+        for (Index ow = start; ow < stop;) {
+          if (ow >= inside0 && ow < inside1 && inside1 - inside0 >= kPixels) {
+            // The last few share a run with some that are done already.
+            const Index first = HWY_MIN(ow, inside1 - kPixels);
+            depthwise_pixels<kPixels, kRelu>(win, taps, weights, image_row + first * step, c0, c1, at(first), apart);
+            ow = first + kPixels;
+            continue;
+          }
+          const Index column = ow * win.stride_w - win.left;
+          Taps edge = taps;
+          edge.kw0 = HWY_MAX(Index{0}, -column);
+          edge.kw1 = HWY_MIN(win.kw, win.w - column);
+          depthwise_pixels<1, kRelu>(win, edge, weights, image_row + ow * step, c0, c1, at(ow), apart);
+          ++ow;
         }
-        const Index column = ow * win.stride_w - win.left;
-        Taps edge = taps;
-        edge.kw0 = HWY_MAX(Index{0}, -column);
-        edge.kw1 = HWY_MIN(win.kw, win.w - column);
-        depthwise_run<1, kRelu>(win, edge, weights, {image_row + ow * step, c0, c1, to + (ow - start) * kPanel, apart});
-        ++ow;
       }
       to += (stop - start) * kPanel;
       position += stop - start;
