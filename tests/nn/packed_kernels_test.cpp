@@ -285,6 +285,35 @@ TEST_CASE("separable convolutions agree with their two halves") {
   });
 }
 
+TEST_CASE("a separable convolution that makes its image row by row gives the bits of one that reads it") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w :
+         {window(2, 29, 30, 24, 3, 1, Padding::same()), window(1, 57, 57, 40, 3, 2, Padding::same()),
+          window(1, 40, 28, 16, 3, 2, Padding::of(0, 1, 0, 1)), window(1, 3, 5, 16, 3, 1, Padding::same()),
+          window(1, 31, 300, 5, 5, 1, Padding::valid())}) {
+      INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", stride " << w.stride_h);
+      const Index k = 11, filters = 19, pixels = w.n * w.h * w.w;
+      const Numbers x(1, pixels * k), taps(2, w.kh * w.kw * w.c), shift(3, w.c), first(4, k * w.c), first_bias(5, w.c),
+          second(6, w.c * filters), second_bias(7, filters), residual(8, w.positions() * filters);
+      const PackedWeights expansion = packed_weights(k, w.c, first.get(), first_bias.get());
+      const PackedWeights pointwise = packed_weights(w.c, filters, second.get(), second_bias.get());
+      DepthwiseTaps depthwise = depthwise_taps(w.kh, w.kw, w.c, taps.get(), shift.get());
+      depthwise.clamp = Clamp::relu6;
+      const PackedFinish finish{Clamp::none, residual.get()};
+      const AlignedFloats image = scratch_memory(pixels * w.c), expected = scratch_memory(w.positions() * filters),
+                          actual = scratch_memory(w.positions() * filters);
+      packed_gemm(parallel, pixels, x.get(), expansion, {Clamp::relu}, image.get());
+      const AlignedFloats whole = scratch_memory(separable_scratch(w, parallel.threads()));
+      separable_conv2d(parallel, w, image.get(), depthwise, pointwise, finish, expected.get(), whole.get());
+      const AlignedFloats rows = scratch_memory(expanded_separable_scratch(w, parallel.threads()));
+      expanded_separable_conv2d(parallel, w, x.get(), expansion, Clamp::relu, depthwise, pointwise, finish,
+                                actual.get(), rows.get());
+      CHECK(std::equal(expected.get(), expected.get() + w.positions() * filters, actual.get()));
+    }
+  });
+}
+
 TEST_CASE("pooling for inference gives the numbers of pooling for training") {
   Parallel parallel(2);
   for_instruction_sets([&](const std::string& isa) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "nn/kernels/separable/separable.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/runtime/folding.h"
 
@@ -135,8 +136,10 @@ class Compiler {
                             const auto* depthwise = as<DepthwiseConv2dLayer>(input);
                             if (depthwise != nullptr && depthwise->multiplier == 1 && clamp_of(depthwise->activation) &&
                                 l.kh == 1 && l.kw == 1 && l.stride_h == 1 && l.stride_w == 1 &&
-                                l.padding.kind != Padding::Kind::explicit_)
+                                l.padding.kind != Padding::Kind::explicit_) {
                               fuse(input);
+                              if (can_expand(input)) fuse(source(input));
+                            }
                           },
                           [&](const DepthwiseConv2dLayer& l) {
                             if (alone && is<ZeroPadding2dLayer>(input) && plain_padding(l.padding)) fuse(input);
@@ -166,6 +169,15 @@ class Compiler {
                           },
                           [](const auto&) {}},
                node(id).layer);
+  }
+
+  /// Whether what a depthwise convolution reads can be made row by row as it is needed.
+  bool can_expand(NodeId depthwise) const {
+    const NodeId from = source(depthwise);
+    const auto* l = as<Conv2dLayer>(from);
+    return l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
+           window(from, *l).reads_in_place() &&
+           kernels::expands_by_rows(window(depthwise, *as<DepthwiseConv2dLayer>(depthwise)));
   }
 
   /// Whether the node's kernel can add another value to its output.
@@ -240,8 +252,19 @@ class Compiler {
                                          .bias = bias(first, d),
                                          .relu_input = relu_before(first),
                                          .clamp = *clamp_of(d.activation)};
-                push(id, separable_step(window(first, d), part, get(main, "kernel"), bias(main, l), finish),
-                     inputs(source(first)));
+                const NodeId from = source(first);
+                if (fused_[at(from)]) {
+                  const auto& e = *as<Conv2dLayer>(from);
+                  const ExpansionPart expansion{
+                      .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *clamp_of(e.activation)};
+                  push(id,
+                       expanded_separable_step(window(first, d), expansion, part, get(main, "kernel"), bias(main, l),
+                                               finish),
+                       inputs(source(from)));
+                } else {
+                  push(id, separable_step(window(first, d), part, get(main, "kernel"), bias(main, l), finish),
+                       inputs(from));
+                }
               } else {
                 push(id,
                      convolution_step(window(main, l), get(main, "kernel"), bias(main, l), finish, uses_winograd(main)),

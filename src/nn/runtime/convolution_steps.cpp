@@ -101,11 +101,38 @@ class Separable : public Step {
     return 4.0 * static_cast<double>(window_.c * (window_.kh * window_.kw + weights_.n));
   }
 
- private:
+ protected:
   Window window_;
   DepthwiseTaps taps_;
   PackedWeights weights_;
   ConvolutionFinish finish_;
+};
+
+class ExpandedSeparable : public Separable {
+ public:
+  ExpandedSeparable(const Window& window, const ExpansionPart& expansion, const DepthwisePart& depthwise,
+                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish)
+      : Separable(window, depthwise, pointwise, bias, finish),
+        expansion_(packed_weights(expansion.kernel.size() / window.c, window.c, numbers(expansion.kernel),
+                                  numbers(expansion.bias))),
+        clamp_(expansion.clamp) {}
+
+  void run(const StepBuffers& b) const override {
+    expanded_separable_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], expansion_, clamp_, taps_,
+                              weights_, packed_finish(finish_, b), b.output, b.scratch);
+  }
+  Index scratch(Index, int threads) const override { return expanded_separable_scratch(window_, threads); }
+  std::string kernel() const override { return "packed gemm + " + Separable::kernel(); }
+  double flops() const override {
+    return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.k * expansion_.n);
+  }
+  double weight_bytes() const override {
+    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.k * expansion_.n);
+  }
+
+ private:
+  PackedWeights expansion_;
+  Clamp clamp_;
 };
 
 /// A depthwise convolution that no pointwise one follows at once.
@@ -143,6 +170,12 @@ StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const Convoluti
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
                            const Tensor& bias, const ConvolutionFinish& finish) {
   return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish);
+}
+
+StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
+                                    const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
+                                    const ConvolutionFinish& finish) {
+  return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish);
 }
 
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier) {

@@ -58,6 +58,14 @@ struct DepthwisePart {
 };
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
                            const Tensor& bias, const ConvolutionFinish& finish);
+/// A 1×1 convolution that makes the image of a separable one: clamp(x · kernel + bias).
+struct ExpansionPart {
+  Tensor kernel, bias{};
+  kernels::Clamp clamp = kernels::Clamp::none;
+};
+StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
+                                    const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
+                                    const ConvolutionFinish& finish);
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier);
 
 StepPointer pool_step(const Window& window, bool max);

@@ -263,5 +263,59 @@ void separable_conv2d(Parallel& parallel, const Window& window, const float* x, 
   });
 }
 
+namespace {
+
+/// Output rows that are made together, of those of one image: enough for a product of its own.
+Index strip_rows(const Window& w) { return std::clamp<Index>(224 / w.ow, 1, w.oh); }
+
+/// Rows of the image that so many output rows reach.
+Index reached_rows(const Window& w, Index rows) { return (rows - 1) * w.stride_h + w.kh; }
+
+/// Whole lines, and one vector past the end.
+Index image_room(const Window& w) { return (panels(reached_rows(w, strip_rows(w)) * w.w * w.c) + 1) * kPanel; }
+
+}  // namespace
+
+bool expands_by_rows(const Window& w) { return w.h * w.w * w.c >= Index{256} * 1024 && w.oh >= 28; }
+
+Index expanded_separable_scratch(const Window& w, int threads) {
+  return threads * (image_room(w) + strip_rows(w) * w.ow * panels(w.c) * kPanel);
+}
+
+void expanded_separable_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& expansion,
+                               Clamp clamp, const DepthwiseTaps& depthwise, const PackedWeights& pointwise,
+                               const PackedFinish& finish, float* y, float* scratch) {
+  const Index per_worker = expanded_separable_scratch(window, 1), row_size = window.w * window.c;
+  const Index chunks = 4, rows = (window.oh + chunks - 1) / chunks;  // of an image
+  parallel.for_chunks(window.n * chunks, 1, [&](Index chunk, Index, int worker) {
+    const Index n = chunk / chunks, stop = std::min(window.oh, (chunk % chunks + 1) * rows);
+    float* image = scratch + worker * per_worker;
+    float* between = image + image_room(window);
+    Index have0 = 0, have1 = 0;  // rows of the image that lie in memory
+    for (Index oh = chunk % chunks * rows; oh < stop; oh += strip_rows(window)) {
+      Window strip = window;
+      strip.n = 1;
+      strip.oh = std::min(strip_rows(window), stop - oh);
+      const Index top = oh * window.stride_h - window.top;
+      const Index row0 = std::max<Index>(0, top), row1 = std::min(window.h, top + reached_rows(window, strip.oh));
+      const Index made = std::max(row0, have1);
+      if (made > row0) std::copy_n(image + (row0 - have0) * row_size, (made - row0) * row_size, image);
+      packed_multiply((row1 - made) * window.w,
+                      {x + (n * window.h + made) * window.w * expansion.k, expansion.k, kPanel}, expansion, 0,
+                      panels(expansion.n), {clamp, nullptr}, image + (made - row0) * row_size);
+      have0 = row0;
+      have1 = row1;
+      strip.h = row1 - row0;
+      strip.top = row0 - top;
+      const Index positions = strip.oh * window.ow, first = (n * window.oh + oh) * window.ow;
+      HWY_DYNAMIC_DISPATCH(depthwise_positions)(strip, depthwise, image, 0, positions, between);
+      PackedFinish here = finish;
+      if (here.residual != nullptr) here.residual += first * pointwise.n;
+      packed_multiply(positions, {between, kPanel, kPanel * positions}, pointwise, 0, panels(pointwise.n), here,
+                      y + first * pointwise.n);
+    }
+  });
+}
+
 }  // namespace svnet::kernels
 #endif
