@@ -43,6 +43,7 @@ int run(int argc, char** argv, Team& team) {
   command.app()
       .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
       ->type_name("NAME");
+  command.add_precision();
   return command.run(
       argc, argv,
       [&](Console& console) {

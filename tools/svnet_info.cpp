@@ -41,6 +41,7 @@ int main(int argc, char** argv) {
       ->needs(asked)
       ->check(CLI::Range(1, 1024));
   command.app().add_option("--layer", layer, "The backbone's layer to stop at (default: the pooled one)")->needs(asked);
+  command.add_precision()->needs(asked);
   return command.run(argc, argv, [&](Console& console) {
     if (what.empty()) {
       if (plan) wrong_usage("--plan takes a model file or the name of a backbone");

@@ -51,12 +51,14 @@ void check_weights(const std::string& name, const std::filesystem::path& folder)
 }
 
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint) {
-  FeaturesOrigin origin{.backbone = from.backbone.kind().name,
-                        .output = from.backbone.output_name(),
-                        .preprocessing = preprocessing_text(from.backbone.preprocessing()),
-                        .weights_sha256 = from.weights,
-                        .dataset_fingerprint = dataset_fingerprint,
-                        .input_fingerprint = {}};
+  const bool in_bf16 = from.backbone.network().precision() == runtime::Precision::bf16;
+  FeaturesOrigin origin{
+      .backbone = from.backbone.kind().name,
+      .output = from.backbone.output_name(),
+      .preprocessing = preprocessing_text(from.backbone.preprocessing()) + (in_bf16 ? ", products in bf16" : ""),
+      .weights_sha256 = from.weights,
+      .dataset_fingerprint = dataset_fingerprint,
+      .input_fingerprint = {}};
   Sha256 hash;
   for (const auto& field : {std::string("features 1"), origin.backbone, origin.output, origin.preprocessing,
                             origin.weights_sha256, origin.dataset_fingerprint})

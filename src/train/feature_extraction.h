@@ -30,7 +30,8 @@ BackboneWithOrigin backbone_from_folder(const std::string& name, const std::stri
 /// Throws Error where a folder is given that holds no weights of the backbone, and none are built in.
 void check_weights(const std::string& name, const std::filesystem::path& folder);
 
-/// The fields of the origin that follow from backbone, weights and pictures, the input fingerprint included.
+/// The fields of the origin that follow from backbone, weights and pictures, the input fingerprint included. Features
+/// in bf16 say so beside the preprocessing, and have another fingerprint.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
 
 }  // namespace svnet

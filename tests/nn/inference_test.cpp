@@ -8,6 +8,8 @@
 
 #include "base/random.h"
 #include "nn/graph/run.h"
+#include "nn/instruction_sets.h"
+#include "nn/kernels/packed/bf16_tile.h"
 #include "nn/numbers.h"
 #include "nn/ops/conv2d.h"
 
@@ -181,6 +183,66 @@ TEST_CASE("SVNET_CONVOLUTION forces a kind of convolution in training, too") {
   CHECK_THROWS_WITH(kernels::convolution_from_environment(),
                     "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
   ::unsetenv("SVNET_CONVOLUTION");
+}
+
+TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for any batch and number of threads") {
+  if (!kernels::machine_has_bf16()) {
+    WARN("this processor has no AVX512-BF16: nothing is tested");
+    return;
+  }
+  const Graph graph = all_layers();
+  const Parameters parameters = drawn(graph);
+  const int threads = Parallel::shared().threads();
+  for (const char* name :
+       {"conv", "sum_act", "after_sum", "expand", "shortcut", "doubled", "join", "dense", "chances"}) {
+    INFO(name);
+    const auto compiled = [&](runtime::Precision precision) {
+      return Inference(graph, parameters, graph.find(name), runtime::Convolution::automatic, precision);
+    };
+    const Inference coarse = compiled(runtime::Precision::bf16);
+    Tensor first;
+    for (int count : {1, 2, 8}) {
+      Parallel::shared().resize(count);
+      const Tensor result = coarse.run({kImages});
+      if (!first.defined()) first = result;
+      CHECK(same_bits(result, first));
+    }
+    Parallel::shared().resize(threads);
+    const double apart = relative_distance(first, compiled(runtime::Precision::f32).run({kImages}));
+    CHECK(apart <= 1e-2);
+    CHECK((apart > 0) == (std::string(name) != "conv"));  // first layers are f32
+    Tensor image = Tensor::empty({1, 12, 10, 5});
+    std::copy_n(kImages.data<float>() + image.size(), image.size(), image.data<float>());
+    const Tensor alone = coarse.run({image});
+    CHECK(std::equal(alone.data<float>(), alone.data<float>() + alone.size(), first.data<float>() + alone.size()));
+  }
+}
+
+TEST_CASE("SVNET_PRECISION chooses bf16 where the machine has it") {
+  const Graph graph = all_layers();
+  const auto made = [&](const char* word) {
+    ::setenv("SVNET_PRECISION", word, 1);
+    return Inference(graph, drawn(graph), graph.output());
+  };
+  CHECK_THROWS_WITH(made("half"), "[SVNET_PRECISION] 'half' is neither f32 nor bf16");
+  for (const char* word : {"", "f32"}) {
+    const Inference plain = made(word);
+    CHECK(plain.precision() == runtime::Precision::f32);
+    for (const StepReport& step : plain.report(1)) CHECK(step.kernel.find("bf16") == std::string::npos);
+  }
+  if (kernels::machine_has_bf16()) {
+    std::vector<std::string> kernels;
+    for (const StepReport& step : made("bf16").report(1)) kernels.push_back(step.kernel);
+    for (const char* kernel : {"bf16 gemm 1x1", "depthwise 3x3 + bf16 gemm", "winograd 3x3", "implicit gemm 3x3"})
+      CHECK(std::count(kernels.begin(), kernels.end(), kernel) > 0);
+    for_instruction_sets([&](const std::string& name) {
+      if (!name.starts_with("AVX3"))
+        CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
+    });
+  } else {
+    CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs a processor with AVX512-BF16"));
+  }
+  ::unsetenv("SVNET_PRECISION");
 }
 
 TEST_CASE("a compiled graph says what is wrong with its inputs") {

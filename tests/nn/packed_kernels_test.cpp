@@ -8,62 +8,18 @@
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
 #include "nn/kernels/gemm.h"
+#include "nn/kernels/packed/bf16_tile.h"
 #include "nn/kernels/packed/streamed_gemm.h"
 #include "nn/kernels/pool/inference_pool.h"
 #include "nn/kernels/pool/pool.h"
 #include "nn/kernels/separable/separable.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/numbers.h"
+#include "nn/packed_numbers.h"
 
 using namespace svnet;
 using namespace svnet::kernels;
 using namespace svnet::test;
-
-namespace {
-
-AlignedFloats scratch_memory(Index count) {
-  AlignedFloats memory = aligned_floats(count);
-  std::fill_n(memory.get(), count, NAN);  // whoever reads what nobody wrote is found out
-  return memory;
-}
-
-Window window(Index n, Index h, Index w, Index c, Index kernel, Index stride, const Padding& padding) {
-  return window_over("test", n, h, w, c,
-                     {.kh = kernel, .kw = kernel, .stride_h = stride, .stride_w = stride, .padding = padding});
-}
-
-/// Numbers with a whole vector of room behind them, as kernels may expect.
-struct Numbers {
-  Numbers(std::uint32_t seed, Index size) : count(size), memory(aligned_floats(size)) {
-    const Tensor drawn = random_tensor({size}, seed, DType::f32);
-    std::copy_n(drawn.data<float>(), size, memory.get());
-  }
-  const float* get() const { return memory.get(); }
-  Index count;
-  AlignedFloats memory;
-};
-
-double clamped(double y, Clamp clamp) {
-  if (clamp != Clamp::none) y = std::max(y, 0.0);
-  return clamp == Clamp::relu6 ? std::min(y, 6.0) : y;
-}
-
-/// Relative L2 distance of `actual` from clamp(expected + bias + residual).
-double distance(const float* actual, std::vector<double> expected, Index n, const float* bias, const float* residual,
-                Clamp clamp) {
-  double difference = 0, norm = 0;
-  for (std::size_t i = 0; i < expected.size(); ++i) {
-    double y = expected[i] + bias[static_cast<Index>(i) % n] + (residual != nullptr ? residual[i] : 0.0f);
-    y = clamped(y, clamp);
-    difference += (actual[i] - y) * (actual[i] - y);
-    norm += y * y;
-  }
-  return difference == 0 ? 0 : std::sqrt(difference / norm);  // clamped numbers may all be 0
-}
-
-std::vector<double> wide(const float* x, Index count) { return {x, x + count}; }
-
-}  // namespace
 
 TEST_CASE("packed gemm multiplies, adds bias and residual, and clamps") {
   Parallel parallel(2);
@@ -288,29 +244,32 @@ TEST_CASE("separable convolutions agree with their two halves") {
 TEST_CASE("a separable convolution that makes its image row by row gives the bits of one that reads it") {
   Parallel parallel(2);
   for_instruction_sets([&](const std::string& isa) {
-    for (const Window& w :
-         {window(2, 29, 30, 24, 3, 1, Padding::same()), window(1, 57, 57, 40, 3, 2, Padding::same()),
-          window(1, 40, 28, 16, 3, 2, Padding::of(0, 1, 0, 1)), window(1, 3, 5, 16, 3, 1, Padding::same()),
-          window(1, 31, 300, 5, 5, 1, Padding::valid())}) {
-      INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", stride " << w.stride_h);
-      const Index k = 11, filters = 19, pixels = w.n * w.h * w.w;
-      const Numbers x(1, pixels * k), taps(2, w.kh * w.kw * w.c), shift(3, w.c), first(4, k * w.c), first_bias(5, w.c),
-          second(6, w.c * filters), second_bias(7, filters), residual(8, w.positions() * filters);
-      const PackedWeights expansion = packed_weights(k, w.c, first.get(), first_bias.get());
-      const PackedWeights pointwise = packed_weights(w.c, filters, second.get(), second_bias.get());
-      DepthwiseTaps depthwise = depthwise_taps(w.kh, w.kw, w.c, taps.get(), shift.get());
-      depthwise.clamp = Clamp::relu6;
-      const PackedFinish finish{Clamp::none, residual.get()};
-      const AlignedFloats image = scratch_memory(pixels * w.c), expected = scratch_memory(w.positions() * filters),
-                          actual = scratch_memory(w.positions() * filters);
-      packed_gemm(parallel, pixels, x.get(), expansion, {Clamp::relu}, image.get());
-      const AlignedFloats whole = scratch_memory(separable_scratch(w, parallel.threads()));
-      separable_conv2d(parallel, w, image.get(), depthwise, pointwise, finish, expected.get(), whole.get());
-      const AlignedFloats rows = scratch_memory(expanded_separable_scratch(w, parallel.threads()));
-      expanded_separable_conv2d(parallel, w, x.get(), expansion, Clamp::relu, depthwise, pointwise, finish,
-                                actual.get(), rows.get());
-      CHECK(std::equal(expected.get(), expected.get() + w.positions() * filters, actual.get()));
-    }
+    for (const Window& w : {window(2, 29, 30, 24, 3, 1, Padding::same()), window(1, 57, 57, 40, 3, 2, Padding::same()),
+                            window(1, 40, 28, 16, 3, 2, Padding::of(0, 1, 0, 1)),
+                            window(1, 3, 5, 16, 3, 1, Padding::same()), window(1, 31, 300, 5, 5, 1, Padding::valid())})
+      for (const Precision precision :
+           machine_has_bf16() ? std::vector{Precision::f32, Precision::bf16} : std::vector{Precision::f32}) {
+        INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", stride " << w.stride_h << ", "
+                 << (precision == Precision::bf16 ? "bf16" : "f32"));
+        const Index k = 11, filters = 19, pixels = w.n * w.h * w.w;
+        const Numbers x(1, pixels * k), taps(2, w.kh * w.kw * w.c), shift(3, w.c), first(4, k * w.c),
+            first_bias(5, w.c), second(6, w.c * filters), second_bias(7, filters), residual(8, w.positions() * filters);
+        const PackedWeights expansion = packed_weights(k, w.c, first.get(), first_bias.get(), precision);
+        const PackedWeights pointwise = packed_weights(w.c, filters, second.get(), second_bias.get(), precision);
+        DepthwiseTaps depthwise = depthwise_taps(w.kh, w.kw, w.c, taps.get(), shift.get());
+        depthwise.clamp = Clamp::relu6;
+        const PackedFinish finish{Clamp::none, residual.get()};
+        const AlignedFloats image = scratch_memory(pixels * w.c), expected = scratch_memory(w.positions() * filters),
+                            actual = scratch_memory(w.positions() * filters);
+        const AlignedFloats rounded = scratch_memory(packed_gemm_scratch(pixels, k, precision, parallel.threads()));
+        packed_gemm(parallel, pixels, x.get(), expansion, {Clamp::relu}, image.get(), rounded.get());
+        const AlignedFloats whole = scratch_memory(separable_scratch(w, parallel.threads(), precision));
+        separable_conv2d(parallel, w, image.get(), depthwise, pointwise, finish, expected.get(), whole.get());
+        const AlignedFloats rows = scratch_memory(expanded_separable_scratch(w, parallel.threads(), k, precision));
+        expanded_separable_conv2d(parallel, w, x.get(), expansion, Clamp::relu, depthwise, pointwise, finish,
+                                  actual.get(), rows.get());
+        CHECK(std::equal(expected.get(), expected.get() + w.positions() * filters, actual.get()));
+      }
   });
 }
 

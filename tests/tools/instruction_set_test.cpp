@@ -8,6 +8,7 @@
 #include "base/cpu.h"
 #include "io/features_file.h"
 #include "io/scores_file.h"
+#include "nn/kernels/packed/bf16_tile.h"
 #include "workplace.h"
 
 using namespace svnet;
@@ -60,6 +61,28 @@ Results results(const Workplace& place, const std::string& instruction_set) {
 }
 
 }  // namespace
+
+TEST_CASE("features in bf16 are near those in f32, say so and have another fingerprint") {
+  if (!kernels::machine_has_bf16()) {
+    WARN("this processor has no AVX512-BF16: nothing is tested");
+    return;
+  }
+  const Workplace place;
+  const auto features = [&](const std::string& environment, const std::string& option) {
+    place.output_of(environment +
+                    "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
+                    "--output its.h5" +
+                    option);
+    return read_features(place / "its.h5");
+  };
+  const Features plain = features("", ""), coarse = features("SVNET_PRECISION=f32 ", " --precision bf16");
+  CHECK(difference(plain.values, coarse.values) <= 2e-2);
+  CHECK(plain.values != coarse.values);
+  CHECK(coarse.preprocessing == plain.preprocessing + ", products in bf16");
+  CHECK(coarse.input_fingerprint != plain.input_fingerprint);
+  CHECK(features("SVNET_PRECISION=bf16 ", "").values == coarse.values);
+  CHECK(features("SVNET_PRECISION=bf16 ", " --precision f32").values == plain.values);
+}
 
 TEST_CASE("SVNET_MAX_ISA: svnet-info says what is in force") {
   const Workplace place;

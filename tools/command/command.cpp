@@ -1,6 +1,7 @@
 #include "command/command.h"
 
 #include <csignal>
+#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <iostream>
@@ -42,6 +43,15 @@ Command::Command(std::string name, const std::string& description, const std::st
   app_.footer(footer);
 }
 
+CLI::Option* Command::add_precision() {
+  return app_
+      .add_option("--precision", precision_,
+                  "Products of the network in f32, or faster of numbers rounded to bf16, where the processor has "
+                  "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
+      ->check(CLI::IsMember({"f32", "bf16"}))
+      ->type_name("f32|bf16");
+}
+
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team) {
   cap_openblas_from_environment(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, not the end of the process
@@ -56,6 +66,7 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     remember_interrupts();
     cap_from_environment();
     if (threads_ > 0) Parallel::shared().resize(threads_);
+    if (!precision_.empty()) ::setenv("SVNET_PRECISION", precision_.c_str(), 1);
     body(console);
     console.end_task();
     flush_results();

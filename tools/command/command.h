@@ -37,8 +37,11 @@ class Command {
   /// To add the program's arguments to.
   CLI::App& app() { return app_; }
 
+  /// Adds --precision, which stands for SVNET_PRECISION: for programs that run networks of a backbone.
+  CLI::Option* add_precision();
+
   /// Parses, runs `body` and returns the exit status: 0 done, 1 failed (one line on stderr: what, where, what to do),
-  /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA and --threads are in force when the body runs.
+  /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA, --threads and --precision are in force when the body runs.
   /// Of a team only the first process speaks. Others wait a second with an error: where the first one failed as well,
   /// it ends them before.
   int run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team = Alone::shared());
@@ -51,6 +54,7 @@ class Command {
   std::string name_;
   CLI::App app_;
   int threads_ = 0;
+  std::string precision_{};
   bool quiet_ = false;
 };
 

@@ -31,10 +31,11 @@ std::optional<Clamp> clamp_of(Activation activation) {
 /// takes along what is fused into it.
 class Compiler {
  public:
-  Compiler(const Graph& graph, const Parameters& parameters, Convolution convolution)
+  Compiler(const Graph& graph, const Parameters& parameters, Convolution convolution, Precision precision)
       : graph_(graph),
         parameters_(parameters),
         convolution_(convolution),
+        precision_(precision),
         readers_(graph.nodes().size(), 0),
         fused_(graph.nodes().size(), false),
         value_(graph.nodes().size(), -1) {
@@ -259,15 +260,17 @@ class Compiler {
                       .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *clamp_of(e.activation)};
                   push(id,
                        expanded_separable_step(window(first, d), expansion, part, get(main, "kernel"), bias(main, l),
-                                               finish),
+                                               finish, precision_),
                        inputs(source(from)));
                 } else {
-                  push(id, separable_step(window(first, d), part, get(main, "kernel"), bias(main, l), finish),
+                  push(id,
+                       separable_step(window(first, d), part, get(main, "kernel"), bias(main, l), finish, precision_),
                        inputs(from));
                 }
               } else {
                 push(id,
-                     convolution_step(window(main, l), get(main, "kernel"), bias(main, l), finish, uses_winograd(main)),
+                     convolution_step(window(main, l), get(main, "kernel"), bias(main, l), finish, uses_winograd(main),
+                                      precision_),
                      inputs(source(main)));
               }
               activate(id, rest);
@@ -277,7 +280,8 @@ class Compiler {
               const DepthwisePart part{.kernel = get(main, "depthwise_kernel"), .relu_input = relu_before(main)};
               const Tensor pointwise = get(main, "pointwise_kernel");
               if (is_separable(main)) {
-                push(id, separable_step(window(main, l), part, pointwise, bias(main, l), finish), inputs(source(main)));
+                push(id, separable_step(window(main, l), part, pointwise, bias(main, l), finish, precision_),
+                     inputs(source(main)));
               } else {
                 const Window w = window(main, l);
                 program_.sizes.push_back(w.oh * w.ow * w.c * l.multiplier);
@@ -285,7 +289,7 @@ class Compiler {
                 program_.steps.push_back(
                     {node(main).name, depthwise_step(w, part, l.multiplier), {value_[at(source(main))]}, between});
                 const Window pixel = window_over("runtime", 1, w.oh, w.ow, w.c * l.multiplier, {});
-                push(id, convolution_step(pixel, pointwise, bias(main, l), finish, false), {between});
+                push(id, convolution_step(pixel, pointwise, bias(main, l), finish, false, precision_), {between});
               }
               activate(id, rest);
             },
@@ -298,7 +302,8 @@ class Compiler {
             },
             [&](const DenseLayer& l) {
               const Activation rest = finished(l.activation);
-              push(id, dense_step(get(main, "kernel"), bias(main, l), finish), {value_[at(node(main).inputs[0])]});
+              push(id, dense_step(get(main, "kernel"), bias(main, l), finish, precision_),
+                   {value_[at(node(main).inputs[0])]});
               activate(id, rest);
             },
             [&](const Pool2dLayer& l) {
@@ -376,6 +381,7 @@ class Compiler {
   const Graph& graph_;
   const Parameters& parameters_;
   const Convolution convolution_;
+  const Precision precision_;
   std::vector<int> readers_;
   std::vector<bool> fused_;     // into its only reader
   std::vector<ValueId> value_;  // of each node
@@ -384,9 +390,11 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution) {
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution,
+                Precision precision) {
+  kernels::check_available(precision);
   const FoldedGraph inference = folded(graph, parameters, output);
-  return Compiler(inference.graph, inference.parameters, convolution).program();
+  return Compiler(inference.graph, inference.parameters, convolution, precision).program();
 }
 
 }  // namespace svnet::runtime

@@ -5,6 +5,7 @@
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
 #include "nn/kernels/convolution_choice.h"
+#include "nn/kernels/precision.h"
 #include "nn/runtime/step.h"
 
 namespace svnet::runtime {
@@ -29,10 +30,12 @@ struct Program {
 };
 
 using kernels::Convolution;
+using kernels::Precision;
 
 /// Compiles what `output` needs: batch norms folded, and padding, activations, additions, pooling, and the pointwise
 /// half of separable convolutions fused into the convolution beside them wherever nobody else reads what lies between.
-/// Parameters must be f32 (Error otherwise).
-Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution);
+/// Parameters must be f32, and the machine must have products of the precision (Error otherwise).
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution,
+                Precision precision = Precision::f32);
 
 }  // namespace svnet::runtime

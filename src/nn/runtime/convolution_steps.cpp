@@ -19,15 +19,24 @@ Window with_batch(Window window, Index batch) {
 
 std::string size_text(const Window& w) { return joined(w.kh, "x", w.kw); }
 
+const char* gemm_text(const PackedWeights& weights) {
+  return weights.precision == Precision::bf16 ? "bf16 gemm" : "packed gemm";
+}
+const char* implicit_text(const PackedWeights& weights) {
+  return weights.precision == Precision::bf16 ? "bf16 implicit gemm" : "implicit gemm";
+}
+
 PackedFinish packed_finish(const ConvolutionFinish& finish, const StepBuffers& b) {
   return {finish.clamp, finish.residual ? b.inputs[1] : nullptr};
 }
 
 class PackedConvolution : public Step {
  public:
-  PackedConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish)
+  PackedConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
+                    Precision precision)
       : window_(window),
-        weights_(packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), numbers(kernel), numbers(bias))),
+        weights_(
+            packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), numbers(kernel), numbers(bias), precision)),
         finish_(finish) {}
 
   void run(const StepBuffers& b) const override {
@@ -35,13 +44,13 @@ class PackedConvolution : public Step {
                   b.scratch);
   }
   Index scratch(Index batch, int threads) const override {
-    return packed_conv2d_scratch(with_batch(window_, batch), threads);
+    return packed_conv2d_scratch(with_batch(window_, batch), threads, weights_.precision);
   }
   std::string kernel() const override {
-    return joined(window_.reads_in_place() ? "packed gemm " : "implicit gemm ", size_text(window_));
+    return joined(window_.reads_in_place() ? gemm_text(weights_) : implicit_text(weights_), " ", size_text(window_));
   }
   double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.k * weights_.n); }
-  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.k * weights_.n); }
+  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.depth * weights_.n); }
 
  private:
   Window window_;
@@ -77,10 +86,10 @@ class WinogradConvolution : public Step {
 class Separable : public Step {
  public:
   Separable(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-            const ConvolutionFinish& finish)
+            const ConvolutionFinish& finish, Precision precision)
       : window_(window),
         taps_(depthwise_taps(window.kh, window.kw, window.c, numbers(depthwise.kernel), numbers(depthwise.bias))),
-        weights_(packed_weights(window.c, pointwise.dim(-1), numbers(pointwise), numbers(bias))),
+        weights_(packed_weights(window.c, pointwise.dim(-1), numbers(pointwise), numbers(bias), precision)),
         finish_(finish) {
     taps_.relu_input = depthwise.relu_input;
     taps_.clamp = depthwise.clamp;
@@ -91,14 +100,14 @@ class Separable : public Step {
                      b.output, b.scratch);
   }
   Index scratch(Index batch, int threads) const override {
-    return separable_scratch(with_batch(window_, batch), threads);
+    return separable_scratch(with_batch(window_, batch), threads, weights_.precision);
   }
-  std::string kernel() const override { return joined("depthwise ", size_text(window_), " + packed gemm"); }
+  std::string kernel() const override { return joined("depthwise ", size_text(window_), " + ", gemm_text(weights_)); }
   double flops() const override {
     return 2.0 * static_cast<double>(window_.positions() * window_.c * (window_.kh * window_.kw + weights_.n));
   }
   double weight_bytes() const override {
-    return 4.0 * static_cast<double>(window_.c * (window_.kh * window_.kw + weights_.n));
+    return 4.0 * static_cast<double>(window_.c * window_.kh * window_.kw + weights_.depth * weights_.n);
   }
 
  protected:
@@ -111,18 +120,20 @@ class Separable : public Step {
 class ExpandedSeparable : public Separable {
  public:
   ExpandedSeparable(const Window& window, const ExpansionPart& expansion, const DepthwisePart& depthwise,
-                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish)
-      : Separable(window, depthwise, pointwise, bias, finish),
+                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish, Precision precision)
+      : Separable(window, depthwise, pointwise, bias, finish, precision),
         expansion_(packed_weights(expansion.kernel.size() / window.c, window.c, numbers(expansion.kernel),
-                                  numbers(expansion.bias))),
+                                  numbers(expansion.bias), precision)),
         clamp_(expansion.clamp) {}
 
   void run(const StepBuffers& b) const override {
     expanded_separable_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], expansion_, clamp_, taps_,
                               weights_, packed_finish(finish_, b), b.output, b.scratch);
   }
-  Index scratch(Index, int threads) const override { return expanded_separable_scratch(window_, threads); }
-  std::string kernel() const override { return "packed gemm + " + Separable::kernel(); }
+  Index scratch(Index, int threads) const override {
+    return expanded_separable_scratch(window_, threads, expansion_.k, weights_.precision);
+  }
+  std::string kernel() const override { return joined(gemm_text(expansion_), " + ", Separable::kernel()); }
   double flops() const override {
     return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.k * expansion_.n);
   }
@@ -158,24 +169,27 @@ class Depthwise : public Step {
 }  // namespace
 
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
-                             const ConvolutionFinish& finish, bool winograd) {
+                             const ConvolutionFinish& finish, bool winograd, Precision precision) {
   if (winograd) return std::make_unique<WinogradConvolution>(window, kernel, bias, finish);
-  return std::make_unique<PackedConvolution>(window, kernel, bias, finish);
+  // First layers: rounding such short runs of a window costs more than the products save.
+  if (window.kh > 1 && window.kw * window.c < 2 * kPanel) precision = Precision::f32;
+  return std::make_unique<PackedConvolution>(window, kernel, bias, finish, precision);
 }
 
-StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish) {
-  return std::make_unique<PackedConvolution>(window_over("dense", 1, 1, 1, kernel.dim(0), {}), kernel, bias, finish);
+StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish, Precision precision) {
+  return std::make_unique<PackedConvolution>(window_over("dense", 1, 1, 1, kernel.dim(0), {}), kernel, bias, finish,
+                                             precision);
 }
 
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
-                           const Tensor& bias, const ConvolutionFinish& finish) {
-  return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish);
+                           const Tensor& bias, const ConvolutionFinish& finish, Precision precision) {
+  return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish, precision);
 }
 
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-                                    const ConvolutionFinish& finish) {
-  return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish);
+                                    const ConvolutionFinish& finish, Precision precision) {
+  return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish, precision);
 }
 
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier) {

@@ -78,10 +78,13 @@ class Inference::Loan {
 };
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output)
-    : Inference(graph, parameters, output, kernels::convolution_from_environment()) {}
+    : Inference(graph, parameters, output, kernels::convolution_from_environment(),
+                kernels::precision_from_environment()) {}
 
-Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution)
-    : program_(runtime::compile(graph, parameters, output, convolution)),
+Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
+                     runtime::Precision precision)
+    : precision_(precision),
+      program_(runtime::compile(graph, parameters, output, convolution, precision)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}
 

@@ -19,19 +19,22 @@ struct StepReport {
   double milliseconds = 0;  ///< the fastest of several runs
 };
 
-/// A graph compiled for inference in f32: kernels chosen, batch norms and activations fused, weights laid out for the
-/// kernels, memory planned. It keeps no reference to graph and parameters. Safe to share between threads: each run
-/// borrows an arena, and nothing is allocated once there are as many as runs at once. The same bits for any number of
-/// threads; a sample's result does not depend on the others of its batch. A batch goes through all steps in groups of
-/// samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
+/// A graph compiled for inference, f32 in and out: kernels chosen, batch norms and activations fused, weights laid out
+/// for the kernels, memory planned. It keeps no reference to graph and parameters. Safe to share between threads: each
+/// run borrows an arena, and nothing is allocated once there are as many as runs at once. The same bits for any number
+/// of threads; a sample's result does not depend on the others of its batch. A batch goes through all steps in groups
+/// of samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
 class Inference {
  public:
-  /// Throws Error for parameters that are not f32.
+  /// With the kernels and the precision that the environment asks for. Throws Error for parameters that are not f32.
   Inference(const Graph& graph, const Parameters& parameters, NodeId output);
-  Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution);
+  Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
+            runtime::Precision precision = runtime::Precision::f32);
 
   const std::vector<Shape>& input_shapes() const { return program_.inputs; }  ///< without the batch
   const Shape& output_shape() const { return program_.output_shape; }         ///< without the batch
+
+  runtime::Precision precision() const { return precision_; }
 
   /// The output of a batch; inputs in the graph's order, f32. Throws Error where shapes do not fit.
   Tensor run(const std::vector<Tensor>& inputs) const;
@@ -54,6 +57,7 @@ class Inference {
   void run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch, float* output,
                 Arena& arena) const;
 
+  runtime::Precision precision_;
   runtime::Program program_;
   runtime::MemoryPlan memory_;
   Index group_;

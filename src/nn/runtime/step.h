@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "nn/kernels/epilogue.h"
+#include "nn/kernels/precision.h"
 #include "nn/kernels/window.h"
 #include "nn/tensor.h"
 
@@ -45,19 +46,20 @@ struct ConvolutionFinish {
 };
 
 /// Windows are those of a batch of 1. bias may be an empty handle.
-/// Winograd where it fits and `winograd` says so.
+/// Winograd, which is f32, where it fits and `winograd` says so.
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
-                             const ConvolutionFinish& finish, bool winograd);
-StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish);
+                             const ConvolutionFinish& finish, bool winograd, kernels::Precision precision);
+StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
+                       kernels::Precision precision);
 
-/// The depthwise half of a separable convolution, and what surrounds it.
+/// The depthwise half of a separable convolution, which is f32, and what surrounds it.
 struct DepthwisePart {
   Tensor kernel, bias{};
   bool relu_input = false;
   kernels::Clamp clamp = kernels::Clamp::none;
 };
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
-                           const Tensor& bias, const ConvolutionFinish& finish);
+                           const Tensor& bias, const ConvolutionFinish& finish, kernels::Precision precision);
 /// A 1×1 convolution that makes the image of a separable one: clamp(x · kernel + bias).
 struct ExpansionPart {
   Tensor kernel, bias{};
@@ -65,7 +67,7 @@ struct ExpansionPart {
 };
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-                                    const ConvolutionFinish& finish);
+                                    const ConvolutionFinish& finish, kernels::Precision precision);
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier);
 
 StepPointer pool_step(const Window& window, bool max);

@@ -7,14 +7,15 @@ namespace {
 
 Index depth(const Window& w) { return w.kh * w.kw * w.c; }
 
-/// Rows of a gathered block are this far apart; not by whole pages, which would all share a few lines of the cache.
-Index row_stride(const Window& w) {
-  const Index whole = panels(depth(w)) * kPanel;
-  return whole % 512 == 0 ? whole + kPanel : whole;
-}
+/// Rows of a gathered block are this far apart.
+Index row_stride(const Window& w) { return packed_row_stride(depth(w)); }
 
-Index scratch_per_worker(const Window& w) {
-  return packed_block_rows(w.positions(), depth(w)) * row_stride(w) + kPanel;
+/// What a worker gathers.
+Index windows_size(const Window& w) { return packed_block_rows(w.positions(), depth(w)) * row_stride(w) + kPanel; }
+
+Index scratch_per_worker(const Window& w, Precision precision) {
+  const Index rows = std::max(packed_block_rows(w.positions(), depth(w)), w.ow);
+  return windows_size(w) + packed_scratch(rows, depth(w), precision);
 }
 
 /// The windows of the output positions [begin, end), a row each; zeros in the border.
@@ -47,11 +48,11 @@ struct Job {
   const PackedFinish& finish;
   float* y;
 
-  /// The output positions from `begin` on; a holds their windows.
-  void multiply(Index begin, Index rows, const PanelRows& a) const {
+  /// The output positions from `begin` on; a holds their windows. `windows` is the worker's scratch memory.
+  void multiply(Index begin, Index rows, const PanelRows& a, float* windows) const {
     PackedFinish here = finish;
     if (here.residual != nullptr) here.residual += begin * weights.n;
-    packed_multiply(rows, a, weights, 0, panels(weights.n), here, y + begin * weights.n);
+    packed_multiply(rows, a, weights, 0, panels(weights.n), here, y + begin * weights.n, windows + windows_size(w));
   }
 
   void multiply_gathered(Index begin, Index end, float* windows) const {
@@ -59,7 +60,7 @@ struct Job {
     for (; begin < end; begin += block) {
       const Index rows = std::min(block, end - begin);
       gather(w, x, begin, begin + rows, windows);
-      multiply(begin, rows, {windows, row_stride(w), kPanel});
+      multiply(begin, rows, {windows, row_stride(w), kPanel}, windows);
     }
   }
 };
@@ -77,22 +78,23 @@ void multiply_row(const Job& job, Index row, float* windows) {
   job.multiply_gathered(begin, begin + first, windows);
   if (last > first) {
     const float* from = job.x + ((n * w.h + top) * w.w + first * w.stride_w - w.left) * w.c;
-    job.multiply(begin + first, last - first, {from, w.stride_w * w.c, w.w * w.c, w.kw * w.c});
+    job.multiply(begin + first, last - first, {from, w.stride_w * w.c, w.w * w.c, w.kw * w.c}, windows);
   }
   job.multiply_gathered(begin + last, begin + w.ow, windows);
 }
 
 }  // namespace
 
-Index packed_conv2d_scratch(const Window& window, int threads) {
-  return window.reads_in_place() ? 0 : threads * scratch_per_worker(window);
+Index packed_conv2d_scratch(const Window& window, int threads, Precision precision) {
+  return window.reads_in_place() ? packed_gemm_scratch(window.positions(), depth(window), precision, threads)
+                                 : threads * scratch_per_worker(window, precision);
 }
 
 void packed_conv2d(Parallel& parallel, const Window& w, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch) {
-  if (w.reads_in_place()) return packed_gemm(parallel, w.positions(), x, weights, finish, y);
+  if (w.reads_in_place()) return packed_gemm(parallel, w.positions(), x, weights, finish, y, scratch);
   const Job job{w, x, weights, finish, y};
-  const auto windows = [&](int worker) { return scratch + worker * scratch_per_worker(w); };
+  const auto windows = [&](int worker) { return scratch + worker * scratch_per_worker(w, weights.precision); };
   if (multiplies_by_rows(w)) {
     parallel.for_chunks(w.n * w.oh, std::max<Index>(1, 256 / w.ow), [&](Index begin, Index end, int worker) {
       for (Index row = begin; row < end; ++row) multiply_row(job, row, windows(worker));

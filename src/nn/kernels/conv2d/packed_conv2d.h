@@ -11,6 +11,6 @@ namespace svnet::kernels {
 void packed_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch);
 /// Numbers of scratch memory for `threads` threads; 0 where none is needed.
-Index packed_conv2d_scratch(const Window& window, int threads);
+Index packed_conv2d_scratch(const Window& window, int threads, Precision precision = Precision::f32);
 
 }  // namespace svnet::kernels

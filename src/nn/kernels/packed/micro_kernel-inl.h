@@ -34,7 +34,7 @@ inline constexpr int kTileRows = 3, kTilePanels = 1;
 #else
 inline constexpr int kTileRows = 6, kTilePanels = 1;
 #endif
-static_assert(kTilePanels <= kMostTilePanels);
+static_assert(kTileRows <= kMostTileRows && kTilePanels <= kMostTilePanels);
 
 /// body(std::integral_constant<int, 0>), … up to count - 1, without a loop: the indices are constants to the compiler.
 template <class Body, int... i>
@@ -127,8 +127,6 @@ HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel,
   });
 }
 
-using MultiplyTile = void (*)(const PanelRows&, Index, const float*, Index, const TileOutput&);
-
 template <int kPanels, int... rows>
 constexpr auto tile_kernels(std::integer_sequence<int, rows...>) {
   return std::array<MultiplyTile, sizeof...(rows)>{&multiply_tile<rows + 1, kPanels>...};
@@ -137,14 +135,15 @@ template <int kPanels>
 inline constexpr auto kTileKernels = tile_kernels<kPanels>(std::make_integer_sequence<int, kTileRows>{});
 
 /// c (rows, kPanels · 16) = finish(a (rows, k) · panels [+ c]), whatever the number of rows: tiles as equal as can be.
+/// `kernels` are those of 1, …, kTileRows rows.
 template <int kPanels>
 HWY_INLINE void multiply_panels_together(Index rows, PanelRows a, Index k, const float* panel, Index panel_stride,
-                                         TileOutput out) {
+                                         TileOutput out, const MultiplyTile* kernels = kTileKernels<kPanels>.data()) {
   TileFinish finish{};
   if (out.finish != nullptr) finish = *out.finish, out.finish = &finish;
   for (Index tiles = (rows + kTileRows - 1) / kTileRows; tiles > 0; --tiles) {
     const Index height = (rows + tiles - 1) / tiles;
-    kTileKernels<kPanels>[static_cast<std::size_t>(height - 1)](a, k, panel, panel_stride, out);
+    kernels[height - 1](a, k, panel, panel_stride, out);
     a.data += height * a.row_stride;
     out.c += height * out.stride;
     if (finish.residual != nullptr) finish.residual += height * finish.residual_stride;

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "nn/kernels/packed/bf16_tile.h"
 #include "nn/kernels/packed/micro_kernel-inl.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -21,15 +22,17 @@ void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& w
   const Index n = weights.n, columns = HWY_MIN(kPanels * kPanel, n - p * kPanel);
   TileFinish tile_finish{weights.bias.get() + p * kPanel,
                          finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
-  for (Index begin = 0; begin < weights.k; begin += kPackedDepth) {
-    const Index run = HWY_MIN(kPackedDepth, weights.k - begin);
-    const bool is_last = begin + run == weights.k;
+  const MultiplyTile* kernels =
+      weights.precision == Precision::bf16 ? bf16_tiles(kPanels) : kTileKernels<kPanels>.data();
+  for (Index begin = 0; begin < weights.depth; begin += kPackedDepth) {
+    const Index run = HWY_MIN(kPackedDepth, weights.depth - begin);
+    const bool is_last = begin + run == weights.depth;
     PanelRows part = a;
     part.data += begin / a.run * a.block_stride;
     const float* panel = weights.panel(p) + begin * kPanel;
     if (columns == kPanels * kPanel) {
-      multiply_panels_together<kPanels>(rows, part, run, panel, weights.k * kPanel,
-                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr});
+      multiply_panels_together<kPanels>(rows, part, run, panel, weights.depth * kPanel,
+                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr}, kernels);
       continue;
     }
     alignas(kAlignment) float tile[kTileRows * kPanel];
@@ -40,7 +43,7 @@ void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& w
       if (here.residual != nullptr) here.residual += row * n;
       if (begin > 0)
         for (Index r = 0; r < height; ++r) std::copy_n(to + r * n, columns, tile + r * kPanel);
-      multiply_panel(height, part, run, panel, {tile, kPanel, begin > 0, is_last ? &here : nullptr});
+      kernels[height - 1](part, run, panel, 0, {tile, kPanel, begin > 0, is_last ? &here : nullptr});
       for (Index r = 0; r < height; ++r) std::copy_n(tile + r * kPanel, columns, to + r * n);
     }
   }
@@ -68,8 +71,17 @@ namespace svnet::kernels {
 HWY_EXPORT(multiply_panels);
 
 void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
-                     const PackedFinish& finish, float* c) {
-  HWY_DYNAMIC_DISPATCH(multiply_panels)(rows, a, weights, first, last, finish, c);
+                     const PackedFinish& finish, float* c, float* scratch) {
+  PanelRows left = a;
+  if (weights.precision == Precision::bf16) {
+    left = {scratch, packed_row_stride(weights.depth), kPanel};
+    round_to_pairs(rows, a, weights.k, scratch, left.row_stride);
+  }
+  HWY_DYNAMIC_DISPATCH(multiply_panels)(rows, left, weights, first, last, finish, c);
+}
+
+Index packed_scratch(Index rows, Index k, Precision precision) {
+  return precision == Precision::bf16 ? rows * packed_row_stride(pairs(k)) : 0;
 }
 
 Index packed_block_rows(Index rows, Index k) {
@@ -81,18 +93,23 @@ Index packed_block_rows(Index rows, Index k) {
 }
 
 void packed_gemm(Parallel& parallel, Index rows, const float* a, const PackedWeights& weights,
-                 const PackedFinish& finish, float* c) {
+                 const PackedFinish& finish, float* c, float* scratch) {
   if (rows == 0) return;
   const Index block = packed_block_rows(rows, weights.k), blocks = (rows + block - 1) / block;
   const Index all = panels(weights.n), wanted = std::clamp<Index>(16 / blocks, 1, all);
   const Index group = (all + wanted - 1) / wanted, groups = (all + group - 1) / group;
-  parallel.for_chunks(blocks * groups, 1, [&](Index task, Index, int) {
+  const Index per_worker = packed_scratch(block, weights.k, weights.precision);
+  parallel.for_chunks(blocks * groups, 1, [&](Index task, Index, int worker) {
     const Index row = task / groups * block, first = task % groups * group;
     PackedFinish here = finish;
     if (here.residual != nullptr) here.residual += row * weights.n;
     packed_multiply(std::min(block, rows - row), {a + row * weights.k, weights.k, kPanel}, weights, first,
-                    std::min(first + group, all), here, c + row * weights.n);
+                    std::min(first + group, all), here, c + row * weights.n, scratch + worker * per_worker);
   });
+}
+
+Index packed_gemm_scratch(Index rows, Index k, Precision precision, int threads) {
+  return threads * packed_scratch(packed_block_rows(rows, k), k, precision);
 }
 
 }  // namespace svnet::kernels

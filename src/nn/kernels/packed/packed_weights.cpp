@@ -1,19 +1,35 @@
 #include "nn/kernels/packed/packed_weights.h"
 
 #include <algorithm>
+#include <bit>
+
+#include "nn/kernels/packed/bf16_tile.h"
 
 namespace svnet::kernels {
 
-PackedWeights packed_weights(Index k, Index n, const float* w, const float* bias) {
-  const Index padded = panels(n) * kPanel;
-  PackedWeights packed{.k = k, .n = n, .panels = aligned_floats(padded * k), .bias = aligned_floats(padded)};
+PackedWeights packed_weights(Index k, Index n, const float* w, const float* bias, Precision precision) {
+  const bool paired = precision == Precision::bf16;
+  const Index padded = panels(n) * kPanel, depth = paired ? pairs(k) : k;
+  PackedWeights packed{.k = k,
+                       .n = n,
+                       .precision = precision,
+                       .depth = depth,
+                       .panels = aligned_floats(padded * depth),
+                       .bias = aligned_floats(padded)};
   std::fill_n(packed.bias.get(), padded, 0.0f);
   if (bias != nullptr) std::copy_n(bias, n, packed.bias.get());
   for (Index p = 0; p < panels(n); ++p) {
     const Index columns = std::min(kPanel, n - p * kPanel);
-    for (Index i = 0; i < k; ++i) {
-      float* to = packed.panels.get() + (p * k + i) * kPanel;
-      std::copy_n(w + i * n + p * kPanel, columns, to);
+    for (Index i = 0; i < depth; ++i) {
+      float* to = packed.panels.get() + (p * depth + i) * kPanel;
+      const float* from = w + (paired ? 2 * i : i) * n + p * kPanel;
+      if (paired)
+        for (Index j = 0; j < columns; ++j) {
+          const std::uint32_t second = 2 * i + 1 < k ? bf16_bits(from[n + j]) : 0;
+          to[j] = std::bit_cast<float>(second << 16 | bf16_bits(from[j]));
+        }
+      else
+        std::copy_n(from, columns, to);
       std::fill_n(to + columns, kPanel - columns, 0.0f);
     }
   }

@@ -9,8 +9,8 @@ inline constexpr Index kPanel = 16;
 
 inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
 
-/// Panels that one tile of registers may span; how many it does depends on the instruction set.
-inline constexpr int kMostTilePanels = 2;
+/// Rows and panels that one tile of registers may span; how many it does depends on the instruction set.
+inline constexpr int kMostTileRows = 14, kMostTilePanels = 2;
 
 /// The left operand of a product with a panel: number (row, k) lies at
 /// data[k / run · block_stride + row · row_stride + k % run]. Plain rows have block_stride = run.
@@ -37,5 +37,9 @@ struct TileOutput {
   const TileFinish* finish = nullptr;
   Index panel_stride = kPanel;
 };
+
+/// One tile: c = finish(a (rows, k) · panels [+ c]); rows and panels are the kernel's own, panels `panel_stride` apart.
+using MultiplyTile = void (*)(const PanelRows& a, Index k, const float* panel, Index panel_stride,
+                              const TileOutput& out);
 
 }  // namespace svnet::kernels

@@ -22,7 +22,7 @@ DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const 
 /// holds separable_scratch numbers.
 void separable_conv2d(Parallel& parallel, const Window& window, const float* x, const DepthwiseTaps& depthwise,
                       const PackedWeights& pointwise, const PackedFinish& finish, float* y, float* scratch);
-Index separable_scratch(const Window& window, int threads);
+Index separable_scratch(const Window& window, int threads, Precision precision = Precision::f32);
 
 /// The same for an image that is made as it is needed: clamp(x · expansion + bias), x (n, h, w, expansion.k), a few
 /// rows at a time that stay in L2. window is the depthwise one, over that image. Every chunk of output rows makes the
@@ -30,7 +30,8 @@ Index separable_scratch(const Window& window, int threads);
 void expanded_separable_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& expansion,
                                Clamp clamp, const DepthwiseTaps& depthwise, const PackedWeights& pointwise,
                                const PackedFinish& finish, float* y, float* scratch);
-Index expanded_separable_scratch(const Window& window, int threads);
+/// k: the expansion's.
+Index expanded_separable_scratch(const Window& window, int threads, Index k, Precision precision = Precision::f32);
 /// Whether that is faster than the image as a whole: where it is too large for L2, and rows suffice for all threads.
 bool expands_by_rows(const Window& window);
 
