@@ -76,9 +76,10 @@ HWY_INLINE V clamped(V y, V low, V high) {
 /// The panels' rows of 16 lie `panel_stride` apart.
 template <int kRows, int kVectors>
 HWY_INLINE void multiply_run(Index k, const float* HWY_RESTRICT a, Index row_stride, const float* HWY_RESTRICT panel,
-                             Index panel_stride, PanelVector (&sum)[kRows][kVectors]) {
+                             Index panel_stride, Index ahead, PanelVector (&sum)[kRows][kVectors]) {
   const PanelTag d;
   for (Index i = 0; i < k; ++i) {
+    __builtin_prefetch(panel + i * kPanel + ahead, 0, 2);
     PanelVector b[kVectors];
     unrolled<kVectors>([&](auto v) HWY_ATTR { b[v] = hn::Load(d, panel + i * kPanel + in_panel(v, panel_stride)); });
     unrolled<kRows>([&](auto r) HWY_ATTR {
@@ -101,13 +102,13 @@ HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel,
     });
   });
   if (a.block_stride == a.run) {
-    multiply_run(k, a.data, a.row_stride, panel, panel_stride, sum);
+    multiply_run(k, a.data, a.row_stride, panel, panel_stride, out.ahead, sum);
   } else {
     const float* block = a.data;
     Index rest = k;
     for (; rest >= a.run; rest -= a.run, block += a.block_stride, panel += a.run * kPanel)
-      multiply_run(a.run, block, a.row_stride, panel, panel_stride, sum);
-    multiply_run(rest, block, a.row_stride, panel, panel_stride, sum);
+      multiply_run(a.run, block, a.row_stride, panel, panel_stride, out.ahead, sum);
+    multiply_run(rest, block, a.row_stride, panel, panel_stride, out.ahead, sum);
   }
   if (out.finish != nullptr) {
     const TileFinish& finish = *out.finish;
@@ -135,14 +136,18 @@ template <int kPanels>
 inline constexpr auto kTileKernels = tile_kernels<kPanels>(std::make_integer_sequence<int, kTileRows>{});
 
 /// c (rows, kPanels · 16) = finish(a (rows, k) · panels [+ c]), whatever the number of rows: tiles as equal as can be.
-/// `kernels` are those of 1, …, kTileRows rows.
+/// `kernels` are those of 1, …, kTileRows rows. fetch_following: the next panels lie panel_stride apart behind these.
 template <int kPanels>
 HWY_INLINE void multiply_panels_together(Index rows, PanelRows a, Index k, const float* panel, Index panel_stride,
-                                         TileOutput out, const MultiplyTile* kernels = kTileKernels<kPanels>.data()) {
+                                         TileOutput out, const MultiplyTile* kernels = kTileKernels<kPanels>.data(),
+                                         bool fetch_following = false) {
   TileFinish finish{};
   if (out.finish != nullptr) finish = *out.finish, out.finish = &finish;
-  for (Index tiles = (rows + kTileRows - 1) / kTileRows; tiles > 0; --tiles) {
-    const Index height = (rows + tiles - 1) / tiles;
+  const Index tiles = (rows + kTileRows - 1) / kTileRows;
+  for (Index t = 0; t < tiles; ++t) {
+    const Index height = (rows + tiles - t - 1) / (tiles - t);
+    // The first tiles fetch the panels that follow: read at once they would come slower than they are multiplied.
+    out.ahead = fetch_following && t < kPanels ? (kPanels + t) * panel_stride : 0;
     kernels[height - 1](a, k, panel, panel_stride, out);
     a.data += height * a.row_stride;
     out.c += height * out.stride;

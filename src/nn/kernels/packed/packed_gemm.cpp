@@ -32,7 +32,8 @@ void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& w
     const float* panel = weights.panel(p) + begin * kPanel;
     if (columns == kPanels * kPanel) {
       multiply_panels_together<kPanels>(rows, part, run, panel, weights.depth * kPanel,
-                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr}, kernels);
+                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr}, kernels,
+                                        true);
       continue;
     }
     alignas(kAlignment) float tile[kTileRows * kPanel];

@@ -36,6 +36,7 @@ struct TileOutput {
   bool accumulate = false;
   const TileFinish* finish = nullptr;
   Index panel_stride = kPanel;
+  Index ahead = 0;  // how far behind the panel, in numbers, lies another that is fetched into L2 meanwhile
 };
 
 /// One tile: c = finish(a (rows, k) · panels [+ c]); rows and panels are the kernel's own, panels `panel_stride` apart.
