@@ -1,6 +1,7 @@
 // The kernels of compiled inference against the plain definitions, at odd sizes, on every instruction set.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstring>
 
 #include "base/aligned.h"
 #include "nn/instruction_sets.h"
@@ -12,7 +13,7 @@
 #include "nn/kernels/packed/streamed_gemm.h"
 #include "nn/kernels/pool/inference_pool.h"
 #include "nn/kernels/pool/pool.h"
-#include "nn/kernels/separable/separable.h"
+#include "nn/kernels/separable/fused_separable.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/numbers.h"
 #include "nn/packed_numbers.h"
@@ -269,6 +270,35 @@ TEST_CASE("a separable convolution that makes its image row by row gives the bit
         expanded_separable_conv2d(parallel, w, x.get(), expansion, Clamp::relu, depthwise, pointwise, finish,
                                   actual.get(), rows.get());
         CHECK(std::equal(expected.get(), expected.get() + w.positions() * filters, actual.get()));
+      }
+  });
+}
+
+TEST_CASE("a separable convolution that is pooled strip by strip gives the bits of one that is pooled as a whole") {
+  Parallel parallel(2);
+  for_instruction_sets([&](const std::string& isa) {
+    for (const Window& w : {window(2, 31, 30, 24, 3, 1, Padding::same()), window(1, 9, 57, 40, 3, 2, Padding::same()),
+                            window(1, 3, 5, 16, 3, 1, Padding::same())})
+      for (const Index kernel : {2, 3}) {
+        const Index filters = 19;
+        const Window pool = window(w.n, w.oh, w.ow, filters, kernel, 2, Padding::same());
+        INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << w.c << ", pool " << kernel);
+        Numbers x(1, w.n * w.h * w.w * w.c), taps(2, w.kh * w.kw * w.c), second(3, w.c * filters), bias(4, filters);
+        x.memory[w.c * (w.w + 1)] = NAN;
+        const PackedWeights pointwise = packed_weights(w.c, filters, second.get(), bias.get());
+        DepthwiseTaps depthwise = depthwise_taps(w.kh, w.kw, w.c, taps.get(), nullptr);
+        depthwise.relu_input = true;
+        const AlignedFloats between = scratch_memory(w.positions() * filters),
+                            expected = scratch_memory(pool.positions() * filters),
+                            actual = scratch_memory(pool.positions() * filters),
+                            whole = scratch_memory(separable_scratch(w, parallel.threads())),
+                            strips = scratch_memory(separable_max_pool_scratch(w, pool, parallel.threads()));
+        separable_conv2d(parallel, w, x.get(), depthwise, pointwise, {Clamp::none, nullptr}, between.get(),
+                         whole.get());
+        max_pool_inference(parallel, pool, between.get(), expected.get());
+        separable_max_pool(parallel, w, x.get(), depthwise, pointwise, Clamp::none, pool, actual.get(), strips.get());
+        CHECK(std::memcmp(expected.get(), actual.get(),
+                          sizeof(float) * static_cast<std::size_t>(pool.positions() * filters)) == 0);
       }
   });
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <optional>
 
-#include "nn/kernels/separable/separable.h"
+#include "nn/kernels/separable/strips.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/runtime/folding.h"
 
@@ -91,6 +91,10 @@ class Compiler {
         "runtime", 1, x[0], x[1], x[2],
         {.kh = layer.kh, .kw = layer.kw, .stride_h = layer.stride_h, .stride_w = layer.stride_w, .padding = padding});
   }
+  Window pool_window(NodeId id, const Pool2dLayer& l) const {
+    const Shape& x = node(node(id).inputs[0]).shape;
+    return window_over("runtime", 1, x[0], x[1], x[2], l.window);
+  }
   /// The zero padding fused into the node, if any.
   const ZeroPadding2dLayer* padding_before(NodeId id) const {
     const NodeId input = node(id).inputs[0];
@@ -167,6 +171,10 @@ class Compiler {
                                 w.stride_w == 2 && plain_padding(w.padding) && uses_winograd(input) &&
                                 clamp_of(as<Conv2dLayer>(input)->activation))
                               fuse(input);
+                            const auto* separable = as<SeparableConv2dLayer>(input);
+                            if (alone && l.kind == PoolKind::max && separable != nullptr && is_separable(input) &&
+                                clamp_of(separable->activation) && kernels::fits_strips(pool_window(id, l)))
+                              fuse(input);
                           },
                           [](const auto&) {}},
                node(id).layer);
@@ -178,7 +186,7 @@ class Compiler {
     const auto* l = as<Conv2dLayer>(from);
     return l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
            window(from, *l).reads_in_place() &&
-           kernels::expands_by_rows(window(depthwise, *as<DepthwiseConv2dLayer>(depthwise)));
+           kernels::fits_strips(window(depthwise, *as<DepthwiseConv2dLayer>(depthwise)));
   }
 
   /// Whether the node's kernel can add another value to its output.
@@ -279,7 +287,12 @@ class Compiler {
               const Activation rest = finished(l.activation);
               const DepthwisePart part{.kernel = get(main, "depthwise_kernel"), .relu_input = relu_before(main)};
               const Tensor pointwise = get(main, "pointwise_kernel");
-              if (is_separable(main)) {
+              if (finish.pool) {
+                push(id,
+                     separable_max_pool_step(window(main, l), part, pointwise, bias(main, l), finish.clamp,
+                                             pool_window(id, *as<Pool2dLayer>(id)), precision_),
+                     inputs(source(main)));
+              } else if (is_separable(main)) {
                 push(id, separable_step(window(main, l), part, pointwise, bias(main, l), finish, precision_),
                      inputs(source(main)));
               } else {
@@ -307,9 +320,7 @@ class Compiler {
               activate(id, rest);
             },
             [&](const Pool2dLayer& l) {
-              const Shape& x = node(node(main).inputs[0]).shape;
-              push(id, pool_step(window_over("runtime", 1, x[0], x[1], x[2], l.window), l.kind == PoolKind::max),
-                   {value_[at(node(main).inputs[0])]});
+              push(id, pool_step(pool_window(main, l), l.kind == PoolKind::max), {value_[at(node(main).inputs[0])]});
             },
             [&](const GlobalPool2dLayer& l) {
               const Shape& x = node(node(main).inputs[0]).shape;

@@ -1,7 +1,7 @@
 #include "base/text.h"
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
-#include "nn/kernels/separable/separable.h"
+#include "nn/kernels/separable/fused_separable.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/runtime/step.h"
 
@@ -146,6 +146,25 @@ class ExpandedSeparable : public Separable {
   Clamp clamp_;
 };
 
+class SeparableMaxPool : public Separable {
+ public:
+  SeparableMaxPool(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
+                   Clamp clamp, const Window& pool, Precision precision)
+      : Separable(window, depthwise, pointwise, bias, {.clamp = clamp}, precision), pool_(pool) {}
+
+  void run(const StepBuffers& b) const override {
+    separable_max_pool(b.parallel, with_batch(window_, b.batch), b.inputs[0], taps_, weights_, finish_.clamp,
+                       with_batch(pool_, b.batch), b.output, b.scratch);
+  }
+  Index scratch(Index, int threads) const override {
+    return separable_max_pool_scratch(window_, pool_, threads, weights_.precision);
+  }
+  std::string kernel() const override { return joined(Separable::kernel(), " + max pool ", size_text(pool_)); }
+
+ private:
+  Window pool_;
+};
+
 /// A depthwise convolution that no pointwise one follows at once.
 class Depthwise : public Step {
  public:
@@ -190,6 +209,11 @@ StepPointer expanded_separable_step(const Window& window, const ExpansionPart& e
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
                                     const ConvolutionFinish& finish, Precision precision) {
   return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish, precision);
+}
+
+StepPointer separable_max_pool_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
+                                    const Tensor& bias, Clamp clamp, const Window& pool, Precision precision) {
+  return std::make_unique<SeparableMaxPool>(window, depthwise, pointwise, bias, clamp, pool, precision);
 }
 
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier) {

@@ -42,7 +42,7 @@ using StepPointer = std::unique_ptr<const Step>;
 struct ConvolutionFinish {
   kernels::Clamp clamp = kernels::Clamp::none;
   bool residual = false;  ///< the step's second input
-  bool pool = false;      ///< Winograd only: the largest of every 2×2
+  bool pool = false;      ///< Winograd's own: the largest of every 2×2
 };
 
 /// Windows are those of a batch of 1. bias may be an empty handle.
@@ -68,6 +68,10 @@ struct ExpansionPart {
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
                                     const ConvolutionFinish& finish, kernels::Precision precision);
+/// The largest of each window of `pool` over a separable convolution's result, clamped before.
+StepPointer separable_max_pool_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
+                                    const Tensor& bias, kernels::Clamp clamp, const Window& pool,
+                                    kernels::Precision precision);
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier);
 
 StepPointer pool_step(const Window& window, bool max);

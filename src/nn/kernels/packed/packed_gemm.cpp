@@ -85,8 +85,10 @@ Index packed_scratch(Index rows, Index k, Precision precision) {
   return precision == Precision::bf16 ? rows * packed_row_stride(pairs(k)) : 0;
 }
 
+Index packed_most_rows(Index k) { return std::clamp<Index>(72 * 1024 / std::max<Index>(k, 1), 24, 96); }
+
 Index packed_block_rows(Index rows, Index k) {
-  const Index most = std::clamp<Index>(72 * 1024 / std::max<Index>(k, 1), 24, 96);
+  const Index most = packed_most_rows(k);
   // Multiples of four, so that two or four threads end together.
   const Index least = (rows + most - 1) / most, whole = (least + 3) / 4 * 4;
   const Index blocks = rows >= 12 * whole ? whole : std::max(least, rows / 12);

@@ -30,6 +30,8 @@ Index packed_gemm_scratch(Index rows, Index k, Precision precision, int threads)
 /// Rows that one task multiplies when each costs k products a column: few enough to stay in L2 beside a panel, and even
 /// among tasks.
 Index packed_block_rows(Index rows, Index k);
+/// As many as it ever gives.
+Index packed_most_rows(Index k);
 
 /// How far apart the rows of such a block lie that has its own memory: whole vectors, but not whole pages, which would
 /// all share a few lines of the cache.

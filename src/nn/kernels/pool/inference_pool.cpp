@@ -61,10 +61,13 @@ namespace svnet::kernels {
 HWY_EXPORT(max_pool_position);
 HWY_EXPORT(average_pool_position);
 
+void max_pool_positions(const Window& win, Index begin, Index end, const float* x, float* y) {
+  for (Index p = begin; p < end; ++p) HWY_DYNAMIC_DISPATCH(max_pool_position)(win, p, x, y);
+}
+
 void max_pool_inference(Parallel& parallel, const Window& win, const float* x, float* y) {
-  parallel.for_chunks(win.positions(), 64, [&](Index begin, Index end, int) {
-    for (Index p = begin; p < end; ++p) HWY_DYNAMIC_DISPATCH(max_pool_position)(win, p, x, y);
-  });
+  parallel.for_chunks(win.positions(), 64,
+                      [&](Index begin, Index end, int) { max_pool_positions(win, begin, end, x, y); });
 }
 
 void average_pool_inference(Parallel& parallel, const Window& win, const float* x, float* y) {

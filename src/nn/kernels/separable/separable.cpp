@@ -246,82 +246,35 @@ DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const 
 }
 
 Index separable_scratch(const Window& window, int threads, Precision precision) {
-  const Index block = packed_block_rows(window.positions(), window.c);
+  const Index block = packed_most_rows(window.c);
   return threads * (block * panels(window.c) * kPanel + packed_scratch(block, window.c, precision));
+}
+
+void separable_positions(const Window& window, const float* x, const DepthwiseTaps& depthwise,
+                         const PackedWeights& pointwise, PackedFinish finish, Index begin, Index end, float* y,
+                         float* scratch) {
+  const Index most = packed_most_rows(window.c), blocks = (end - begin + most - 1) / most;
+  const Index block = blocks == 0 ? 1 : (end - begin + blocks - 1) / blocks;
+  float* rounded = scratch + most * panels(window.c) * kPanel;
+  for (; begin < end; begin += block) {
+    const Index rows = std::min(block, end - begin);
+    HWY_DYNAMIC_DISPATCH(depthwise_positions)(window, depthwise, x, begin, begin + rows, scratch);
+    packed_multiply(rows, {scratch, kPanel, kPanel * rows}, pointwise, 0, panels(pointwise.n), finish, y, rounded);
+    if (finish.residual != nullptr) finish.residual += rows * pointwise.n;
+    y += rows * pointwise.n;
+  }
 }
 
 void separable_conv2d(Parallel& parallel, const Window& window, const float* x, const DepthwiseTaps& depthwise,
                       const PackedWeights& pointwise, const PackedFinish& finish, float* y, float* scratch) {
-  const Index block = packed_block_rows(window.positions(), window.c);
   const Index per_worker = separable_scratch(window, 1, pointwise.precision);
-  parallel.for_chunks(window.positions(), block, [&](Index begin, Index end, int worker) {
-    float* between = scratch + worker * per_worker;
-    HWY_DYNAMIC_DISPATCH(depthwise_positions)(window, depthwise, x, begin, end, between);
-    PackedFinish here = finish;
-    if (here.residual != nullptr) here.residual += begin * pointwise.n;
-    packed_multiply(end - begin, {between, kPanel, kPanel * (end - begin)}, pointwise, 0, panels(pointwise.n), here,
-                    y + begin * pointwise.n, between + block * panels(window.c) * kPanel);
-  });
-}
-
-namespace {
-
-/// Output rows that are made together, of those of one image: enough for a product of its own.
-Index strip_rows(const Window& w) { return std::clamp<Index>(224 / w.ow, 1, w.oh); }
-
-/// Rows of the image that so many output rows reach.
-Index reached_rows(const Window& w, Index rows) { return (rows - 1) * w.stride_h + w.kh; }
-
-/// Whole lines, and one vector past the end.
-Index image_room(const Window& w) { return (panels(reached_rows(w, strip_rows(w)) * w.w * w.c) + 1) * kPanel; }
-
-Index between_room(const Window& w) { return strip_rows(w) * w.ow * panels(w.c) * kPanel; }
-
-}  // namespace
-
-bool expands_by_rows(const Window& w) { return w.h * w.w * w.c >= Index{256} * 1024 && w.oh >= 28; }
-
-Index expanded_separable_scratch(const Window& w, int threads, Index k, Precision precision) {
-  const Index rounded = std::max(packed_scratch(reached_rows(w, strip_rows(w)) * w.w, k, precision),
-                                 packed_scratch(strip_rows(w) * w.ow, w.c, precision));
-  return threads * (image_room(w) + between_room(w) + panels(rounded) * kPanel);
-}
-
-void expanded_separable_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& expansion,
-                               Clamp clamp, const DepthwiseTaps& depthwise, const PackedWeights& pointwise,
-                               const PackedFinish& finish, float* y, float* scratch) {
-  const Index per_worker = expanded_separable_scratch(window, 1, expansion.k, pointwise.precision);
-  const Index row_size = window.w * window.c;
-  const Index chunks = 4, rows = (window.oh + chunks - 1) / chunks;  // of an image
-  parallel.for_chunks(window.n * chunks, 1, [&](Index chunk, Index, int worker) {
-    const Index n = chunk / chunks, stop = std::min(window.oh, (chunk % chunks + 1) * rows);
-    float* image = scratch + worker * per_worker;
-    float* between = image + image_room(window);
-    float* rounded = between + between_room(window);
-    Index have0 = 0, have1 = 0;  // rows of the image that lie in memory
-    for (Index oh = chunk % chunks * rows; oh < stop; oh += strip_rows(window)) {
-      Window strip = window;
-      strip.n = 1;
-      strip.oh = std::min(strip_rows(window), stop - oh);
-      const Index top = oh * window.stride_h - window.top;
-      const Index row0 = std::max<Index>(0, top), row1 = std::min(window.h, top + reached_rows(window, strip.oh));
-      const Index made = std::max(row0, have1);
-      if (made > row0) std::copy_n(image + (row0 - have0) * row_size, (made - row0) * row_size, image);
-      packed_multiply((row1 - made) * window.w,
-                      {x + (n * window.h + made) * window.w * expansion.k, expansion.k, kPanel}, expansion, 0,
-                      panels(expansion.n), {clamp, nullptr}, image + (made - row0) * row_size, rounded);
-      have0 = row0;
-      have1 = row1;
-      strip.h = row1 - row0;
-      strip.top = row0 - top;
-      const Index positions = strip.oh * window.ow, first = (n * window.oh + oh) * window.ow;
-      HWY_DYNAMIC_DISPATCH(depthwise_positions)(strip, depthwise, image, 0, positions, between);
-      PackedFinish here = finish;
-      if (here.residual != nullptr) here.residual += first * pointwise.n;
-      packed_multiply(positions, {between, kPanel, kPanel * positions}, pointwise, 0, panels(pointwise.n), here,
-                      y + first * pointwise.n, rounded);
-    }
-  });
+  parallel.for_chunks(window.positions(), packed_block_rows(window.positions(), window.c),
+                      [&](Index begin, Index end, int worker) {
+                        PackedFinish here = finish;
+                        if (here.residual != nullptr) here.residual += begin * pointwise.n;
+                        separable_positions(window, x, depthwise, pointwise, here, begin, end, y + begin * pointwise.n,
+                                            scratch + worker * per_worker);
+                      });
 }
 
 }  // namespace svnet::kernels

@@ -24,15 +24,10 @@ void separable_conv2d(Parallel& parallel, const Window& window, const float* x, 
                       const PackedWeights& pointwise, const PackedFinish& finish, float* y, float* scratch);
 Index separable_scratch(const Window& window, int threads, Precision precision = Precision::f32);
 
-/// The same for an image that is made as it is needed: clamp(x · expansion + bias), x (n, h, w, expansion.k), a few
-/// rows at a time that stay in L2. window is the depthwise one, over that image. Every chunk of output rows makes the
-/// rows that its windows reach, so that some are made twice; that changes no bits.
-void expanded_separable_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& expansion,
-                               Clamp clamp, const DepthwiseTaps& depthwise, const PackedWeights& pointwise,
-                               const PackedFinish& finish, float* y, float* scratch);
-/// k: the expansion's.
-Index expanded_separable_scratch(const Window& window, int threads, Index k, Precision precision = Precision::f32);
-/// Whether that is faster than the image as a whole: where it is too large for L2, and rows suffice for all threads.
-bool expands_by_rows(const Window& window);
+/// The same for the positions [begin, end) of all outputs, on the calling thread. y and the residual are those of
+/// position begin; scratch is one thread's.
+void separable_positions(const Window& window, const float* x, const DepthwiseTaps& depthwise,
+                         const PackedWeights& pointwise, PackedFinish finish, Index begin, Index end, float* y,
+                         float* scratch);
 
 }  // namespace svnet::kernels
