@@ -37,6 +37,7 @@ SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, I
     for (int p = 0; p < kPanels; ++p)
       sum[r][p] = out.accumulate ? _mm512_loadu_ps(out.c + r * out.stride + p * out.panel_stride) : _mm512_setzero_ps();
   for (Index i = 0; i < k; ++i) {
+    __builtin_prefetch(panel + i * kPanel + out.ahead, 0, 2);
     __m512bh b[kPanels];
     for (int p = 0; p < kPanels; ++p) b[p] = as_pairs(_mm512_load_ps(panel + p * panel_stride + i * kPanel));
 #pragma GCC unroll 14
