@@ -26,15 +26,6 @@ std::array<std::uint32_t, 4> philox4x32(Counter c, Key k) {
   return c;
 }
 
-void philox4x32_four(Counter counter, Key k, std::array<std::uint32_t, 16>& words) {
-  Counter a = counter, b = counter, c = counter, d = counter;
-  b[2] += 1, c[2] += 2, d[2] += 3;
-  for (int i = 0; i < 10; ++i, k = next(k)) a = round(a, k), b = round(b, k), c = round(c, k), d = round(d, k);
-  std::size_t word = 0;
-  for (const Counter& of : {a, b, c, d})
-    for (const std::uint32_t value : of) words[word++] = value;
-}
-
 double RandomStream::normal() {
   const double u = uniform();
   const double v = uniform();

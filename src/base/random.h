@@ -26,10 +26,11 @@ enum class Stream : std::uint32_t {
 /// under `key`, as Random123 numbers the words.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
-/// The words of steps `step` to `step` + 3 of the counter, one after the other. Four at once take little more time than
+/// The words of sixteen steps of the counter, one after the other: with wide vectors they take little more time than
 /// one, whose rounds wait for each other.
-void philox4x32_four(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key,
-                     std::array<std::uint32_t, 16>& words);
+inline constexpr std::size_t kPhiloxRun = 16;
+using PhiloxRun = std::array<std::uint32_t, 4 * kPhiloxRun>;
+void philox4x32_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words);
 
 /// The four words of step `step` of the stream number `index`: counter = (index low, index high, step, stream),
 /// key = (seed low, seed high).
@@ -52,8 +53,8 @@ class RandomStream {
   /// The words of step 0, then of step 1, …, in order.
   std::uint32_t bits32() {
     if (used_ == words_.size()) {
-      philox4x32_four(counter_, key_, words_);
-      counter_[2] += 4;
+      philox4x32_run(counter_, key_, words_);
+      counter_[2] += kPhiloxRun;
       used_ = 0;
     }
     return words_[used_++];
@@ -85,7 +86,7 @@ class RandomStream {
  private:
   std::array<std::uint32_t, 2> key_;
   std::array<std::uint32_t, 4> counter_;
-  std::array<std::uint32_t, 16> words_{};
+  PhiloxRun words_{};
   std::size_t used_ = words_.size();
 };
 

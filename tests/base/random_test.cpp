@@ -4,7 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "base/instruction_sets.h"
+
 using namespace svnet;
+using namespace svnet::test;
 
 TEST_CASE("Philox4x32-10 gives Random123's known answers") {
   using Words = std::array<std::uint32_t, 4>;
@@ -16,10 +19,16 @@ TEST_CASE("Philox4x32-10 gives Random123's known answers") {
 
 TEST_CASE("a random stream is laid out as documented") {
   const std::uint64_t seed = 0x0123456789abcdef, index = 0xfedcba9876543210;
-  RandomStream random(seed, Stream::shuffle, index);
-  for (std::uint32_t step = 0; step < 3; ++step)
-    for (std::uint32_t word : philox4x32({0x76543210, 0xfedcba98, step, 3}, {0x89abcdef, 0x01234567}))
-      CHECK(random.bits32() == word);
+  for_instruction_sets([&](const std::string& isa) {
+    INFO(isa);
+    RandomStream random(seed, Stream::shuffle, index);
+    for (std::uint32_t step = 0; step < 40; ++step)
+      for (std::uint32_t word : philox4x32({0x76543210, 0xfedcba98, step, 3}, {0x89abcdef, 0x01234567}))
+        CHECK(random.bits32() == word);
+    PhiloxRun words{};
+    philox4x32_run({1, 2, ~0u, 3}, {4, 5}, words);  // the step starts again from 0
+    CHECK(words[4] == philox4x32({1, 2, 0, 3}, {4, 5})[0]);
+  });
 }
 
 TEST_CASE("below() is uniform and stays below") {

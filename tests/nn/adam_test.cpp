@@ -3,7 +3,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/kernels/adam/adam_product.h"
 #include "nn/kernels/gemm.h"
 #include "nn/numbers.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/kernels/conv2d/conv2d.h"
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"

@@ -2,7 +2,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/numbers.h"
 
 using namespace svnet;

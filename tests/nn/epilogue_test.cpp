@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/kernels/depthwise/depthwise.h"
 #include "nn/numbers.h"
 #include "nn/ops/activations.h"

@@ -6,9 +6,9 @@
 #include <cstdlib>
 #include <thread>
 
+#include "base/instruction_sets.h"
 #include "base/random.h"
 #include "nn/graph/run.h"
-#include "nn/instruction_sets.h"
 #include "nn/kernels/packed/bf16_tile.h"
 #include "nn/numbers.h"
 #include "nn/ops/conv2d.h"

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "base/aligned.h"
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/kernels/conv2d/conv2d.h"
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"

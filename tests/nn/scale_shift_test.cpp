@@ -2,7 +2,7 @@
 #include <cmath>
 #include <limits>
 
-#include "nn/instruction_sets.h"
+#include "base/instruction_sets.h"
 #include "nn/kernels/batch_norm/batch_norm.h"
 #include "nn/numbers.h"
 
