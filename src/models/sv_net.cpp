@@ -1,5 +1,7 @@
 #include "models/sv_net.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -8,6 +10,8 @@
 
 namespace svnet {
 namespace {
+
+constexpr std::array<const char*, 3> kEncodings{"radians", "sphere", "harmonics"};  // in the order of the enumeration
 
 NodeId dropped(Graph& g, const std::string& name, NodeId x, double rate) {
   return rate > 0 ? g.add(name, DropoutLayer{rate}, {x}) : x;
@@ -22,26 +26,44 @@ NodeId dense_block(Graph& g, const std::string& prefix, NodeId x, Index units) {
 
 }  // namespace
 
-const char* name_of(AngleEncoding encoding) { return encoding == AngleEncoding::radians ? "radians" : "sphere"; }
+const char* name_of(AngleEncoding encoding) { return kEncodings[static_cast<std::size_t>(encoding)]; }
 
 AngleEncoding angle_encoding_named(const std::string& text) {
-  const std::vector<std::string> names{"radians", "sphere"};
-  if (text == names[0]) return AngleEncoding::radians;
-  check(text == names[1], "[sv_net] there is no angle encoding '", text, "'", suggestion(text, names));
-  return AngleEncoding::sphere;
+  const auto found = std::find(kEncodings.begin(), kEncodings.end(), text);
+  check(found != kEncodings.end(), "[sv_net] there is no angle encoding '", text, "'",
+        suggestion(text, std::vector<std::string>(kEncodings.begin(), kEncodings.end())));
+  return static_cast<AngleEncoding>(found - kEncodings.begin());
 }
 
-Index angle_count(AngleEncoding encoding) { return encoding == AngleEncoding::radians ? 2 : 3; }
+Index angle_count(AngleEncoding encoding) {
+  switch (encoding) {
+    case AngleEncoding::radians:
+      return 2;
+    case AngleEncoding::sphere:
+      return 3;
+    case AngleEncoding::harmonics:
+      break;
+  }
+  return kMostAngles;
+}
 
 void encode_angles(AngleEncoding encoding, double theta_deg, double phi_deg, float* encoded) {
   const double theta = theta_deg * std::numbers::pi / 180, phi = phi_deg * std::numbers::pi / 180;
   if (encoding == AngleEncoding::radians) {
     encoded[0] = static_cast<float>(theta - std::numbers::pi);
     encoded[1] = static_cast<float>(phi - std::numbers::pi);
-  } else {
+  } else if (encoding == AngleEncoding::sphere) {
     encoded[0] = static_cast<float>(std::cos(phi) * std::cos(theta));
     encoded[1] = static_cast<float>(std::cos(phi) * std::sin(theta));
     encoded[2] = static_cast<float>(std::sin(phi));
+  } else {
+    constexpr double kStrength = 4;
+    const double level = kStrength * std::numbers::sqrt2 * std::cos(phi);
+    encoded[0] = static_cast<float>(level * std::cos(theta));
+    encoded[1] = static_cast<float>(level * std::sin(theta));
+    encoded[2] = static_cast<float>(level * std::cos(2 * theta));
+    encoded[3] = static_cast<float>(level * std::sin(2 * theta));
+    encoded[4] = static_cast<float>(kStrength * (phi_deg - 65) / 15);
   }
 }
 

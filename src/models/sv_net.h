@@ -6,14 +6,17 @@
 namespace svnet {
 
 /// How a camera pose is fed. radians: θ − π, φ − π. sphere: the unit viewing direction (cos φ cos θ, cos φ sin θ, sin
-/// φ).
-enum class AngleEncoding { radians, sphere };
+/// φ). harmonics: 4 (√2 cos φ cos θ, √2 cos φ sin θ, √2 cos φ cos 2θ, √2 cos φ sin 2θ, (φ − 65°) / 15°); opposite views
+/// are as easily told to be alike as to differ, and the numbers are large enough to be heard beside hundreds of
+/// activations.
+enum class AngleEncoding { radians, sphere, harmonics };
 const char* name_of(AngleEncoding);
 /// Throws Error for an unknown name.
 AngleEncoding angle_encoding_named(const std::string& name);
 
 /// How many numbers an encoded pose has.
 Index angle_count(AngleEncoding);
+inline constexpr Index kMostAngles = 5;  ///< of any encoding
 /// Writes angle_count numbers.
 void encode_angles(AngleEncoding, double theta_deg, double phi_deg, float* encoded);
 

@@ -20,7 +20,15 @@ namespace svnet {
 namespace {
 
 AngleEncoding encoding(Config::SvNet::Angles angles) {
-  return angles == Config::SvNet::Angles::radians ? AngleEncoding::radians : AngleEncoding::sphere;
+  switch (angles) {
+    case Config::SvNet::Angles::radians:
+      return AngleEncoding::radians;
+    case Config::SvNet::Angles::sphere:
+      return AngleEncoding::sphere;
+    case Config::SvNet::Angles::harmonics:
+      break;
+  }
+  return AngleEncoding::harmonics;
 }
 
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {

@@ -35,7 +35,7 @@ class TrainingSet {
  private:
   struct Example {
     Index input;
-    float angles[3];
+    float angles[kMostAngles];
     float target;
   };
   const ViewInputs& inputs_;

@@ -96,7 +96,7 @@ TEST_CASE("compiled networks agree with the operations they are made of, at ever
 }
 
 TEST_CASE("angles are encoded as documented") {
-  float encoded[3];
+  float encoded[kMostAngles];
   encode_angles(AngleEncoding::radians, 90, 45, encoded);
   CHECK(encoded[0] == Approx(-M_PI / 2));
   CHECK(encoded[1] == Approx(-3 * M_PI / 4));
@@ -104,6 +104,21 @@ TEST_CASE("angles are encoded as documented") {
   CHECK(encoded[0] == Approx(0).margin(1e-7));
   CHECK(encoded[1] == Approx(0.5));
   CHECK(encoded[2] == Approx(std::sqrt(3) / 2));
+  encode_angles(AngleEncoding::harmonics, 90, 60, encoded);
+  const double expected[] = {0, 2 * std::sqrt(2), -2 * std::sqrt(2), 0, -4.0 / 3};
+  for (Index i = 0; i < angle_count(AngleEncoding::harmonics); ++i)
+    CHECK(encoded[i] == Approx(expected[i]).margin(1e-6));
+  float above[kMostAngles];
+  encode_angles(AngleEncoding::harmonics, 90, 90, encoded);
+  encode_angles(AngleEncoding::harmonics, 225, 90, above);
+  for (Index i = 0; i < kMostAngles; ++i) CHECK(above[i] == Approx(encoded[i]).margin(1e-6));  // one and the same view
+}
+
+TEST_CASE("an encoding of angles is known by its name") {
+  for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics})
+    CHECK(angle_encoding_named(name_of(encoding)) == encoding);
+  CHECK_THROWS_WITH(angle_encoding_named("harmonic"),
+                    "[sv_net] there is no angle encoding 'harmonic', did you mean 'harmonics'?");
 }
 
 TEST_CASE("the last block of every backbone takes nothing but the output of one layer") {

@@ -37,7 +37,7 @@ std::vector<Pose> many_poses() {
 }  // namespace
 
 TEST_CASE("a predictor gives the features and scores of its model, as many poses as there are") {
-  for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere}) {
+  for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics}) {
     const Model model = small_model(encoding);
     const TemporaryFolder folder;
     const auto path = folder.path() / "model.safetensors";

@@ -33,7 +33,7 @@ struct Config {
     Singletons singletons = Singletons::zero;
   };
   struct SvNet {
-    enum class Angles { radians, sphere };
+    enum class Angles { radians, sphere, harmonics };
     enum class Target { individual, global };
     std::string backbone = "vgg19";
     std::string layer;

@@ -108,8 +108,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
       text("sv_net.layer", c.sv_net.layer, layer, "The layer that feeds the head. Empty: the pooled output."),
       whole("sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
       number("sv_net.dropout", c.sv_net.dropout, kBelowOne, "Share of the activations that dropout zeroes."),
-      choice("sv_net.angles", c.sv_net.angles, {"radians", "sphere"},
-             "Angles as radians minus pi (theta, phi), or as the unit viewing direction."),
+      choice("sv_net.angles", c.sv_net.angles, {"radians", "sphere", "harmonics"},
+             "Angles as radians minus pi (theta, phi), as the unit viewing direction, or as sines and cosines of theta "
+             "and of twice theta, large enough to be heard where top images are few."),
       choice("sv_net.target", c.sv_net.target, {"individual", "global"}, "The score that is learnt."),
 
       whole("training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
