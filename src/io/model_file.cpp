@@ -4,6 +4,7 @@
 
 #include "io/graph_json.h"
 #include "io/tensor_file.h"
+#include "models/image/orientation.h"
 
 namespace svnet {
 namespace {
@@ -47,6 +48,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
       {"head", {{"graph", graph_to_json(model.head)}}},
       {"angles", {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}},
       {"input_fingerprint", model.input_fingerprint}};
+  if (model.orientations != 1) file.description()["head"]["orientations"] = model.orientations;
   add_parameters(file, "backbone", backbone, model.backbone_parameters);
   add_parameters(file, "head", model.head, model.head_parameters);
   file.write(path);
@@ -63,6 +65,11 @@ Model read_model(const std::filesystem::path& path) {
     model.preprocessing = preprocessing_from_json(file.get<json>("preprocessing"));
     model.head = graph_from_json(head.at("graph"), "head");
     model.angles = angle_encoding_named(file.get<json>("angles").at("encoding").get<std::string>());
+    model.orientations = head.value("orientations", 1);
+    check(model.orientations == 1 || model.orientations == kOrientations, "there are ", model.orientations,
+          " orientations, expected 1 or ", kOrientations);
+    check(model.orientations == 1 || model.preprocessing.height == model.preprocessing.width, "pictures of ",
+          model.preprocessing.height, "x", model.preprocessing.width, " cannot be turned; only square ones can");
     model.input_fingerprint = file.get<std::string>("input_fingerprint");
     const Shape& features = model.backbone_graph.node(model.backbone_graph.find(model.backbone_output)).shape;
     const auto inputs = model.head.inputs();

@@ -17,6 +17,8 @@ struct Model {
   Graph backbone_graph;
   Parameters backbone_parameters;
   AngleEncoding angles = AngleEncoding::radians;
+  // Of the top image, whose mean a score is: 1, as taken, or kOrientations, for which pictures must be square.
+  int orientations = 1;
   Graph head;  // as sv_net() makes it
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the numbers depend on
@@ -24,7 +26,8 @@ struct Model {
 
 // A TensorFile of kind "model": tensors "backbone/<layer>/<parameter>" and "head/<layer>/<parameter>"; description
 // {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels", "height", "width", "interpolation",
-// "channels"}, "head": {"graph"}, "angles": {"encoding", "unit", "order"}, "input_fingerprint"}.
+// "channels"}, "head": {"graph", "orientations": only where not 1}, "angles": {"encoding", "unit", "order"},
+// "input_fingerprint"}.
 
 /// Replaces the file as a whole. Layers of the backbone above its output are left out.
 void write_model(const std::filesystem::path& path, const Model& model);

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "models/image/orientation.h"
 
 namespace svnet {
 namespace {
@@ -32,16 +33,20 @@ Predictor::Predictor(const std::filesystem::path& model_file) : Predictor(read_m
 Predictor::Predictor(const Model& model)
     : preprocessing_(model.preprocessing),
       angles_(model.angles),
+      orientations_(model.orientations),
       backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output)),
       head_(model.head, model.head_parameters, model.head.output()) {
-  feature_count_ = element_count(backbone_.output_shape());
+  feature_count_ = orientations_ * element_count(backbone_.output_shape());
 }
 
 Tensor Predictor::embed(const Image& top) const {
   check(top.height > 0 && top.width > 0 && static_cast<Index>(top.rgb.size()) == top.height * top.width * 3,
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
-  Tensor batch = Tensor::empty({1, preprocessing_.height, preprocessing_.width, 3});
+  Tensor batch = Tensor::empty({orientations_, preprocessing_.height, preprocessing_.width, 3});
   prepare(preprocessing_, top, batch.data<float>());
+  for (int orientation = 1; orientation < orientations_; ++orientation)
+    orient(orientation, preprocessing_.width, batch.data<float>(),
+           batch.data<float>() + orientation * preprocessing_.size());
   const Tensor features = backbone_.run({batch});
   check_finite(features, "feature");
   return features.reshaped({1, feature_count_});
@@ -57,20 +62,24 @@ std::vector<float> Predictor::scores(const Tensor& features, std::span<const Pos
     check(problem.empty(), "[predict] pose ", i, ": ", problem);
   }
   const Index count = static_cast<Index>(poses.size()), angles = angle_count(angles_);
-  std::vector<float> result;
-  result.reserve(poses.size());
-  for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
-    const Index size = std::min(kPosesAtOnce, count - begin);
-    Tensor repeated = Tensor::empty({size, feature_count_}), encoded = Tensor::empty({size, angles});
-    for (Index i = 0; i < size; ++i) {
-      const Pose& pose = poses[static_cast<std::size_t>(begin + i)];
-      std::copy_n(features.data<float>(), feature_count_, repeated.data<float>() + i * feature_count_);
-      encode_angles(angles_, within_one_turn(pose.theta_deg), pose.phi_deg, encoded.data<float>() + i * angles);
+  const Index dimension = feature_count_ / orientations_;
+  std::vector<float> result(poses.size(), 0.0f);
+  for (int orientation = 0; orientation < orientations_; ++orientation)
+    for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
+      const Index size = std::min(kPosesAtOnce, count - begin);
+      Tensor repeated = Tensor::empty({size, dimension}), encoded = Tensor::empty({size, angles});
+      for (Index i = 0; i < size; ++i) {
+        const Pose& pose = poses[static_cast<std::size_t>(begin + i)];
+        const double theta_deg = oriented_theta_deg(orientation, within_one_turn(pose.theta_deg));
+        std::copy_n(features.data<float>() + orientation * dimension, dimension,
+                    repeated.data<float>() + i * dimension);
+        encode_angles(angles_, within_one_turn(theta_deg), pose.phi_deg, encoded.data<float>() + i * angles);
+      }
+      const Tensor values = head_.run({repeated, encoded});
+      check_finite(values, "score");
+      for (Index i = 0; i < size; ++i)
+        result[static_cast<std::size_t>(begin + i)] += values.data<float>()[i] / static_cast<float>(orientations_);
     }
-    const Tensor values = head_.run({repeated, encoded});
-    check_finite(values, "score");
-    result.insert(result.end(), values.data<float>(), values.data<float>() + size);
-  }
   return result;
 }
 

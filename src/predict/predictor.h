@@ -18,7 +18,7 @@ class Predictor {
   explicit Predictor(const std::filesystem::path& model_file);
   explicit Predictor(const Model& model);
 
-  /// The number D of features.
+  /// The number D of features: of all orientations of the top image that the model looks at.
   Index feature_count() const { return feature_count_; }
 
   /// Features (1, D) of a top image of any size. Throws Error for an image without pixels, or whose rgb has another
@@ -33,6 +33,7 @@ class Predictor {
  private:
   Preprocessing preprocessing_;
   AngleEncoding angles_;
+  int orientations_;
   Index feature_count_;
   Inference backbone_, head_;
 };

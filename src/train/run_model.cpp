@@ -7,9 +7,9 @@
 #include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
+#include "models/image/orientation.h"
 #include "models/trained_graph.h"
 #include "nn/graph/run.h"
-#include "train/orientation.h"
 #include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
@@ -86,6 +86,7 @@ std::string Run::model_fingerprint() {
                            std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
   if (t.fine_tune != Config::Training::FineTune::none)
     hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
+  if (n.orientations != Config::SvNet::Orientations::as_taken) hash.update_field("all orientations");
   if (t.augmentation != Config::Training::Augmentation::none)
     hash.update_field(joined("augmentation ", static_cast<int>(t.augmentation)));
   return hash.hex();
@@ -111,6 +112,7 @@ Model Run::model(Resume resume) {
               .backbone_graph = source.backbone.graph(),
               .backbone_parameters = source.backbone.parameters(),
               .angles = angles,
+              .orientations = config_.sv_net.orientations == Config::SvNet::Orientations::all ? kOrientations : 1,
               .head = sv_net({.features = source.backbone.dimension(),
                               .width = config_.sv_net.width,
                               .dropout = config_.sv_net.dropout,
@@ -206,35 +208,45 @@ const std::vector<double>& Run::predictions() {
 
 std::vector<double> Run::predicted_scores(const Model& model) {
   std::unique_ptr<ViewInputs> inputs;
-  if (config_.training.fine_tune == Config::Training::FineTune::none)
+  if (config_.training.fine_tune == Config::Training::FineTune::none && model.orientations == 1)
     inputs = std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
   else
     inputs =
         std::make_unique<PictureInputs>(dataset_, model.preprocessing,
                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
                                                                     model.backbone_graph.find(model.backbone_output)),
-                                        PictureInputs::Options{});
+                                        PictureInputs::Options{.orientations = model.orientations, .flat = true});
   const Index dimension = element_count(inputs->shape()), angles = angle_count(model.angles);
+  const int orientations = model.orientations;
   const auto poses = std::span(dataset_.poses);
   std::vector<double> predicted;
   constexpr std::size_t kPoses = 16;  // whose pictures are looked at together
   for (std::size_t first = 0; first < poses.size(); first += kPoses) {
     const auto part = poses.subspan(first, std::min(kPoses, poses.size() - first));
     std::vector<Index> top_views;
-    for (const auto& pose : part) top_views.push_back(pose.top_view);
+    for (const auto& pose : part)
+      for (int orientation = 0; orientation < orientations; ++orientation)
+        top_views.push_back(pose.top_view * orientations + orientation);
     const Tensor features = inputs->batch(top_views);
     for (std::size_t p = 0; p < part.size(); ++p) {
-      // One row per view: the features of the pose's top view, and the view's angles.
+      // One row per orientation and view: the features of the pose's top view, and the view's angles.
       const auto& pose = part[p];
-      Tensor top = Tensor::empty({pose.view_count, dimension}), encoded = Tensor::empty({pose.view_count, angles});
-      for (Index i = 0; i < pose.view_count; ++i) {
-        const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + i)];
-        std::copy_n(features.data<float>() + static_cast<Index>(p) * dimension, dimension,
-                    top.data<float>() + i * dimension);
-        encode_angles(model.angles, view.theta_deg, view.phi_deg, encoded.data<float>() + i * angles);
+      const Index rows = orientations * pose.view_count;
+      Tensor top = Tensor::empty({rows, dimension}), encoded = Tensor::empty({rows, angles});
+      for (Index row = 0; row < rows; ++row) {
+        const Index orientation = row / pose.view_count;
+        const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + row % pose.view_count)];
+        std::copy_n(features.data<float>() + (static_cast<Index>(p) * orientations + orientation) * dimension,
+                    dimension, top.data<float>() + row * dimension);
+        encode_angles(model.angles, oriented_theta_deg(static_cast<int>(orientation), view.theta_deg), view.phi_deg,
+                      encoded.data<float>() + row * angles);
       }
       const Tensor score = infer(model.head, model.head_parameters, {top, encoded}, {model.head.output()})[0];
-      predicted.insert(predicted.end(), score.data<float>(), score.data<float>() + pose.view_count);
+      for (Index i = 0; i < pose.view_count; ++i) {
+        double sum = 0;
+        for (Index row = i; row < rows; row += pose.view_count) sum += score.data<float>()[row];
+        predicted.push_back(sum / orientations);
+      }
     }
   }
   return predicted;

@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 #include "semantics/score_sums.h"
-#include "train/orientation.h"
+#include "models/image/orientation.h"
 
 namespace svnet {
 namespace {

@@ -58,6 +58,24 @@ TEST_CASE("a model comes back with the same bits") {
   CHECK(equal(score(model), score(back)));
 }
 
+TEST_CASE("a model says how many orientations of the top image it looks at, where not one") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  const auto written = [&](int orientations, Index height) {
+    Model model = small_model();
+    model.orientations = orientations;
+    model.preprocessing.height = height;
+    write_model(path, model);
+    return read_model(path).orientations;
+  };
+  CHECK(written(8, 96) == 8);
+  CHECK(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));
+  CHECK(written(1, 96) == 1);
+  CHECK_FALSE(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));
+  CHECK_THROWS_WITH(written(4, 96), path.string() + ": there are 4 orientations, expected 1 or 8");
+  CHECK_THROWS_WITH(written(8, 64), path.string() + ": pictures of 64x96 cannot be turned; only square ones can");
+}
+
 TEST_CASE("every kind of layer survives JSON") {
   Graph g;
   const NodeId image = g.input("image", {16, 16, 3}), extra = g.input("extra", {2});

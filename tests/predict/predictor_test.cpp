@@ -5,6 +5,7 @@
 #include <limits>
 #include <thread>
 
+#include "models/image/orientation.h"
 #include "nn/graph/run.h"
 #include "small_model.h"
 #include "temporary_folder.h"
@@ -56,6 +57,36 @@ TEST_CASE("a predictor gives the features and scores of its model, as many poses
     CHECK(scores[best_view(scores)] - scores[best_first(scores).back()] > 1e-3);  // poses make a difference
     CHECK(predictor.scores(features, {}).empty());
   }
+}
+
+TEST_CASE("a model of all orientations gives the mean over them, whichever of them the picture is taken in") {
+  Model model = small_model(AngleEncoding::harmonics);
+  const Predictor as_taken(model);
+  model.orientations = kOrientations;
+  const Predictor predictor(model);
+  CHECK(predictor.feature_count() == kOrientations * as_taken.feature_count());
+
+  // The picture at the size of the network, so that turning it comes first or last alike.
+  const Image picture = small_picture(96, 96);
+  const std::vector<float> pixels(picture.rgb.begin(), picture.rgb.end());
+  std::vector<float> turned(pixels.size());
+  const std::vector<Pose> poses = many_poses();
+  const std::vector<float> scores = predictor.scores(predictor.embed(picture), poses);
+  std::vector<double> mean(poses.size(), 0);
+  for (int orientation = 0; orientation < kOrientations; ++orientation) {
+    orient(orientation, 96, pixels.data(), turned.data());
+    const Image image{96, 96, std::vector<std::uint8_t>(turned.begin(), turned.end())};
+    std::vector<Pose> seen;
+    for (const Pose& pose : poses) seen.push_back({oriented_theta_deg(orientation, pose.theta_deg), pose.phi_deg});
+    const std::vector<float> alone = as_taken.scores(as_taken.embed(image), seen);
+    const std::vector<float> together = predictor.scores(predictor.embed(image), seen);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      mean[i] += alone[i] / static_cast<double>(kOrientations);
+      CHECK(together[i] == Approx(scores[i]).margin(1e-5));
+    }
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) CHECK(scores[i] == Approx(mean[i]).margin(1e-5));
+  CHECK(predictor.scores(predictor.embed(picture), std::span(poses).first(1))[0] == scores[0]);
 }
 
 TEST_CASE("poses a whole turn apart have the same score") {

@@ -42,7 +42,7 @@ scores:
   min_samples: 2e5
   singletons: skip
   target_error: 1e-3
-sv_net: {layer: block5_pool, angles: sphere, dropout: 0}
+sv_net: {layer: block5_pool, angles: sphere, orientations: all, dropout: 0}
 weights:
 evaluation:
   pipelines:
@@ -60,6 +60,7 @@ evaluation:
   CHECK(c.scores.target_error == 0.001);
   CHECK(c.sv_net.layer == "block5_pool");
   CHECK(c.sv_net.angles == Config::SvNet::Angles::sphere);
+  CHECK(c.sv_net.orientations == Config::SvNet::Orientations::all);
   CHECK(c.sv_net.dropout == 0);
   CHECK(c.evaluation.pipelines == std::vector<std::string>{"mobilenet_v2_ward", "xception_single"});
   CHECK(c.evaluation.nmi == Config::Evaluation::Nmi::geometric);

@@ -209,6 +209,35 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   Parallel::shared().resize(threads_before);
 }
 
+TEST_CASE("scores of all orientations are those of the predictor, and a model of their own") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.sv_net.angles = Config::SvNet::Angles::harmonics;
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  const Model as_taken = Run(config, dataset, temporary.path() / "run", {}).model();
+  CHECK(as_taken.orientations == 1);
+
+  config.sv_net.orientations = Config::SvNet::Orientations::all;
+  Run run(config, dataset, temporary.path() / "run", {});
+  const Model model = run.model();
+  CHECK(model.orientations == 8);
+  CHECK(model.input_fingerprint != as_taken.input_fingerprint);
+  const std::vector<double> scores = run.predicted_scores(model);
+  REQUIRE(scores.size() == dataset.views.size());
+  CHECK(scores != run.predicted_scores(as_taken));
+  const Predictor predictor(temporary.path() / "run/model.safetensors");
+  for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose) {
+    const Tensor features = predictor.embed(
+        read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path));
+    for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
+      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] ==
+            Approx(predictor.scores(features, std::span(&camera, 1))[0]).epsilon(1e-4));
+    }
+  }
+}
+
 TEST_CASE("inputs that are kept in every orientation are those made when asked for") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");

@@ -35,12 +35,14 @@ struct Config {
   struct SvNet {
     enum class Angles { radians, sphere, harmonics };
     enum class Target { individual, global };
+    enum class Orientations { as_taken, all };
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;
     double dropout = 0.75;
     Angles angles = Angles::radians;
     Target target = Target::individual;
+    Orientations orientations = Orientations::as_taken;
   };
   struct Training {
     enum class Optimizer { adam, sgd };

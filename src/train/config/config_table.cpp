@@ -112,6 +112,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
              "Angles as radians minus pi (theta, phi), as the unit viewing direction, or as sines and cosines of theta "
              "and of twice theta, large enough to be heard where top images are few."),
       choice("sv_net.target", c.sv_net.target, {"individual", "global"}, "The score that is learnt."),
+      choice(
+          "sv_net.orientations", c.sv_net.orientations, {"as_taken", "all"},
+          "A view's score is that of the top image as taken, or the mean over its eight orientations, theta with it."),
 
       whole("training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
       whole("training.batch_size", c.training.batch_size, {.min = 2}, "Examples of a step."),

@@ -1,4 +1,4 @@
-#include "train/orientation.h"
+#include "models/image/orientation.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

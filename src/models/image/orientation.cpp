@@ -1,4 +1,4 @@
-#include "train/orientation.h"
+#include "models/image/orientation.h"
 
 #include <algorithm>
 #include <cmath>
