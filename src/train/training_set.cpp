@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "semantics/score_sums.h"
 #include "models/image/orientation.h"
+#include "semantics/score_sums.h"
 
 namespace svnet {
 namespace {
