@@ -32,10 +32,16 @@ template <int kRows, int kPanels>
 SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, Index panel_stride,
                               const TileOutput& out) {
   __m512 sum[kRows][kPanels];
+  __mmask16 columns[kPanels];
+  for (int p = 0; p < kPanels; ++p) {
+    const Index count = out.columns - p * kPanel;
+    columns[p] = static_cast<__mmask16>(count >= kPanel ? 0xffff : count <= 0 ? 0 : (1 << count) - 1);
+  }
 #pragma GCC unroll 14
   for (int r = 0; r < kRows; ++r)
     for (int p = 0; p < kPanels; ++p)
-      sum[r][p] = out.accumulate ? _mm512_loadu_ps(out.c + r * out.stride + p * out.panel_stride) : _mm512_setzero_ps();
+      sum[r][p] = out.accumulate ? _mm512_maskz_loadu_ps(columns[p], out.c + r * out.stride + p * out.panel_stride)
+                                 : _mm512_setzero_ps();
   for (Index i = 0; i < k; ++i) {
     __builtin_prefetch(panel + i * kPanel + out.ahead, 0, 2);
     __m512bh b[kPanels];
@@ -61,7 +67,8 @@ SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, I
   }
 #pragma GCC unroll 14
   for (int r = 0; r < kRows; ++r)
-    for (int p = 0; p < kPanels; ++p) _mm512_storeu_ps(out.c + r * out.stride + p * out.panel_stride, sum[r][p]);
+    for (int p = 0; p < kPanels; ++p)
+      _mm512_mask_storeu_ps(out.c + r * out.stride + p * out.panel_stride, columns[p], sum[r][p]);
 }
 
 template <int kPanels, int... rows>

@@ -7,6 +7,7 @@
 #define SVNET_MICRO_KERNEL_INL_H_
 #endif
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -89,16 +90,50 @@ HWY_INLINE void multiply_run(Index k, const float* HWY_RESTRICT a, Index row_str
   }
 }
 
+/// How many lanes of vector v lie within the first `columns` columns of a tile.
+template <class I>
+HWY_INLINE std::size_t lanes_within(I v, Index columns) {
+  const Index lanes = kPanel / kVectorsPerPanel;
+  return static_cast<std::size_t>(HWY_MIN(HWY_MAX(columns - v * lanes, Index{0}), lanes));
+}
+
+/// The first `count` numbers from p, which need not be aligned, and nothing behind them.
+HWY_INLINE PanelVector load_first(std::size_t count, const float* p) {
+  const PanelTag d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  return hn::MaskedLoad(hn::FirstN(d, count), d, p);
+#else
+  alignas(kAlignment) float lanes[kPanel] = {};
+  std::copy_n(p, count, lanes);
+  return hn::Load(d, lanes);
+#endif
+}
+HWY_INLINE void store_first(std::size_t count, PanelVector value, float* p) {
+  const PanelTag d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  hn::BlendedStore(value, hn::FirstN(d, count), d, p);
+#else
+  alignas(kAlignment) float lanes[kPanel];
+  hn::Store(value, d, lanes);
+  std::copy_n(lanes, count, p);
+#endif
+}
+
 /// One tile: c (kRows, kPanels · 16) = finish(a · panels [+ c]).
 template <int kRows, int kPanels>
-HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel, Index panel_stride,
-                                const TileOutput& out) {
+HWY_NOINLINE HWY_FLATTEN void multiply_tile(const PanelRows& a, Index k, const float* panel, Index panel_stride,
+                                            const TileOutput& out) {
   const PanelTag d;
   constexpr int kVectors = kPanels * kVectorsPerPanel;
   PanelVector sum[kRows][kVectors];
+  const auto at = [&](auto r, auto v) HWY_ATTR { return out.c + r * out.stride + in_panel(v, out.panel_stride); };
+  const bool is_whole = out.columns >= kPanels * kPanel;
   unrolled<kRows>([&](auto r) HWY_ATTR {
     unrolled<kVectors>([&](auto v) HWY_ATTR {
-      sum[r][v] = out.accumulate ? hn::LoadU(d, out.c + r * out.stride + in_panel(v, out.panel_stride)) : hn::Zero(d);
+      if (!out.accumulate)
+        sum[r][v] = hn::Zero(d);
+      else
+        sum[r][v] = is_whole ? hn::LoadU(d, at(r, v)) : load_first(lanes_within(v, out.columns), at(r, v));
     });
   });
   if (a.block_stride == a.run) {
@@ -122,10 +157,14 @@ HWY_NOINLINE void multiply_tile(const PanelRows& a, Index k, const float* panel,
       });
     });
   }
-  unrolled<kRows>([&](auto r) HWY_ATTR {
-    unrolled<kVectors>(
-        [&](auto v) HWY_ATTR { hn::StoreU(sum[r][v], d, out.c + r * out.stride + in_panel(v, out.panel_stride)); });
-  });
+  if (is_whole) {
+    unrolled<kRows>([&](auto r)
+                        HWY_ATTR { unrolled<kVectors>([&](auto v) HWY_ATTR { hn::StoreU(sum[r][v], d, at(r, v)); }); });
+  } else {
+    unrolled<kRows>([&](auto r) HWY_ATTR {
+      unrolled<kVectors>([&](auto v) HWY_ATTR { store_first(lanes_within(v, out.columns), sum[r][v], at(r, v)); });
+    });
+  }
 }
 
 template <int kPanels, int... rows>

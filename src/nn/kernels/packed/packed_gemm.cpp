@@ -15,38 +15,26 @@ HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
-/// kPanels whole panels, or one whose columns end inside it: then tile by tile over a scratch tile.
+/// kPanels panels, the last of which n may end in.
 template <int kPanels>
 void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& weights, Index p,
                           const PackedFinish& finish, float low, float high, float* c) {
-  const Index n = weights.n, columns = HWY_MIN(kPanels * kPanel, n - p * kPanel);
-  TileFinish tile_finish{weights.bias.get() + p * kPanel,
-                         finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
+  const Index n = weights.n;
+  const TileFinish tile_finish{weights.bias.get() + p * kPanel,
+                               finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
   const MultiplyTile* kernels =
       weights.precision == Precision::bf16 ? bf16_tiles(kPanels) : kTileKernels<kPanels>.data();
   for (Index begin = 0; begin < weights.depth; begin += kPackedDepth) {
     const Index run = HWY_MIN(kPackedDepth, weights.depth - begin);
-    const bool is_last = begin + run == weights.depth;
     PanelRows part = a;
     part.data += begin / a.run * a.block_stride;
-    const float* panel = weights.panel(p) + begin * kPanel;
-    if (columns == kPanels * kPanel) {
-      multiply_panels_together<kPanels>(rows, part, run, panel, weights.depth * kPanel,
-                                        {c + p * kPanel, n, begin > 0, is_last ? &tile_finish : nullptr}, kernels,
-                                        true);
-      continue;
-    }
-    alignas(kAlignment) float tile[kTileRows * kPanel];
-    for (Index row = 0; row < rows; row += kTileRows, part.data += kTileRows * part.row_stride) {
-      const Index height = HWY_MIN(Index{kTileRows}, rows - row);
-      float* to = c + row * n + p * kPanel;
-      TileFinish here = tile_finish;
-      if (here.residual != nullptr) here.residual += row * n;
-      if (begin > 0)
-        for (Index r = 0; r < height; ++r) std::copy_n(to + r * n, columns, tile + r * kPanel);
-      kernels[height - 1](part, run, panel, 0, {tile, kPanel, begin > 0, is_last ? &here : nullptr});
-      for (Index r = 0; r < height; ++r) std::copy_n(tile + r * kPanel, columns, to + r * n);
-    }
+    multiply_panels_together<kPanels>(rows, part, run, weights.panel(p) + begin * kPanel, weights.depth * kPanel,
+                                      {.c = c + p * kPanel,
+                                       .stride = n,
+                                       .accumulate = begin > 0,
+                                       .finish = begin + run == weights.depth ? &tile_finish : nullptr,
+                                       .columns = n - p * kPanel},
+                                      kernels, true);
   }
 }
 
@@ -57,7 +45,7 @@ void multiply_panels(Index rows, const PanelRows& a, const PackedWeights& weight
   const float high = finish.clamp == Clamp::relu6 ? 6.0f : kInfinity;
   Index p = first;
   if constexpr (kTilePanels > 1)
-    for (const Index whole = HWY_MIN(last, weights.n / kPanel); p + kTilePanels <= whole; p += kTilePanels)
+    for (; p + kTilePanels <= last; p += kTilePanels)
       multiply_some_panels<kTilePanels>(rows, a, weights, p, finish, low, high, c);
   for (; p < last; ++p) multiply_some_panels<1>(rows, a, weights, p, finish, low, high, c);
 }

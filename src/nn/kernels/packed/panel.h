@@ -36,6 +36,7 @@ struct TileOutput {
   bool accumulate = false;
   const TileFinish* finish = nullptr;
   Index panel_stride = kPanel;
+  Index columns = kMostTilePanels * kPanel;  // where the tile has more, what lies behind these stays as it is
   Index ahead = 0;  // how far behind the panel, in numbers, lies another that is fetched into L2 meanwhile
 };
 
