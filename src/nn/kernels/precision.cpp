@@ -1,22 +1,16 @@
 #include "nn/kernels/precision.h"
 
-#include <cstdlib>
-#include <string>
-
 #include <hwy/targets.h>
 
 #include "base/cpu.h"
 #include "base/error.h"
+#include "nn/kernels/environment_word.h"
 #include "nn/kernels/packed/bf16_tile.h"
 
 namespace svnet::kernels {
 
 Precision precision_from_environment() {
-  const char* text = std::getenv("SVNET_PRECISION");
-  if (text == nullptr || *text == '\0') return Precision::f32;
-  const std::string word = text;
-  check(word == "f32" || word == "bf16", "[SVNET_PRECISION] '", word, "' is neither f32 nor bf16");
-  return word == "f32" ? Precision::f32 : Precision::bf16;
+  return environment_word("SVNET_PRECISION", "f32", Precision::f32, "bf16", Precision::bf16, Precision::f32);
 }
 
 void check_available(Precision precision) {
