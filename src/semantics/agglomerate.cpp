@@ -7,8 +7,10 @@
 #include "semantics/agglomerate.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <limits>
+#include <utility>
 
 #include "semantics/lower_triangle.h"
 
@@ -290,30 +292,18 @@ void agglomerate_by(Index k, const AgglomerationState& given) {
   }
 }
 
+template <Linkage linkage, int... vectors>
+constexpr auto agglomerations(std::integer_sequence<int, vectors...>) {
+  return std::array{&agglomerate_by<linkage, vectors>...};
+}
+
 /// Loops over a known number of vectors are unrolled: that is worth its code where few vectors hold a problem.
 template <Linkage linkage>
 void agglomerate_by(Index k, const AgglomerationState& s) {
-  if constexpr (hn::MaxLanes(Floats()) >= 8) {
-    switch (vectors<0>(s)) {
-      case 1:
-        return agglomerate_by<linkage, 1>(k, s);
-      case 2:
-        return agglomerate_by<linkage, 2>(k, s);
-      case 3:
-        return agglomerate_by<linkage, 3>(k, s);
-      case 4:
-        return agglomerate_by<linkage, 4>(k, s);
-      case 5:
-        return agglomerate_by<linkage, 5>(k, s);
-      case 6:
-        return agglomerate_by<linkage, 6>(k, s);
-      case 7:
-        return agglomerate_by<linkage, 7>(k, s);
-      case 8:
-        return agglomerate_by<linkage, 8>(k, s);
-    }
-  }
-  agglomerate_by<linkage, 0>(k, s);
+  constexpr int kMostUnrolled = hn::MaxLanes(Floats()) >= 8 ? 8 : 0;
+  constexpr auto kByVectors = agglomerations<linkage>(std::make_integer_sequence<int, kMostUnrolled + 1>());
+  const Index count = vectors<0>(s);
+  kByVectors[static_cast<std::size_t>(count <= kMostUnrolled ? count : 0)](k, s);
 }
 
 void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {
