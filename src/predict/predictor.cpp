@@ -13,13 +13,6 @@ namespace {
 /// Poses that the head sees at once: enough to read its weights seldom, few enough that repeated features stay small.
 constexpr Index kPosesAtOnce = 32;
 
-/// Azimuth in [0, 360): a model that is fed plain angles has seen no other.
-double within_one_turn(double theta_deg) {
-  const double rest = std::fmod(theta_deg, 360.0);
-  const double turned = rest < 0 ? rest + 360 : rest;
-  return turned < 360 ? turned : 0;
-}
-
 void check_finite(const Tensor& values, const char* what) {
   const auto numbers = values.values<float>();
   for (std::size_t i = 0; i < numbers.size(); ++i)
@@ -70,10 +63,11 @@ std::vector<float> Predictor::scores(const Tensor& features, std::span<const Pos
       Tensor repeated = Tensor::empty({size, dimension}), encoded = Tensor::empty({size, angles});
       for (Index i = 0; i < size; ++i) {
         const Pose& pose = poses[static_cast<std::size_t>(begin + i)];
-        const double theta_deg = oriented_theta_deg(orientation, within_one_turn(pose.theta_deg));
+        // Within one turn: a model that is fed plain angles has seen no other.
+        const double theta_deg = oriented_theta_deg(orientation, pose.theta_deg);
         std::copy_n(features.data<float>() + orientation * dimension, dimension,
                     repeated.data<float>() + i * dimension);
-        encode_angles(angles_, within_one_turn(theta_deg), pose.phi_deg, encoded.data<float>() + i * angles);
+        encode_angles(angles_, theta_deg, pose.phi_deg, encoded.data<float>() + i * angles);
       }
       const Tensor values = head_.run({repeated, encoded});
       check_finite(values, "score");

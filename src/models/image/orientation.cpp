@@ -22,7 +22,8 @@ void orient(int orientation, Index side, const float* from, float* to) {
 
 double oriented_theta_deg(int orientation, double theta_deg) {
   const double theta = std::fmod((orientation >= 4 ? 180 - theta_deg : theta_deg) + 90 * (orientation % 4), 360.0);
-  return theta < 0 ? theta + 360 : theta;
+  const double turned = theta < 0 ? theta + 360 : theta;
+  return turned < 360 ? turned : 0;  // where a tiny negative one was rounded
 }
 
 }  // namespace svnet
