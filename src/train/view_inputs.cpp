@@ -50,14 +50,23 @@ Shape PictureInputs::shape() const {
 Tensor PictureInputs::made(std::span<const Index> inputs) const {
   const auto count = static_cast<Index>(inputs.size());
   Tensor pixels = Tensor::empty({count, preprocessing_.height, preprocessing_.width, 3});
-  Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) {
-    const Index input = inputs[static_cast<std::size_t>(i)];
-    const View& view = dataset_.views[static_cast<std::size_t>(input / options_.orientations)];
-    float* to = pixels.data<float>() + i * preprocessing_.size();
-    prepare(preprocessing_, read_image(dataset_.root / view.path), to);
-    if (input % options_.orientations == 0) return;
-    const std::vector<float> as_taken(to, to + preprocessing_.size());
-    orient(static_cast<int>(input % options_.orientations), preprocessing_.width, as_taken.data(), to);
+  // Inputs of one view that follow each other are turned from one picture.
+  Parallel::shared().for_chunks(count, options_.orientations, [&](Index begin, Index end, int) {
+    std::vector<float> as_taken(static_cast<std::size_t>(preprocessing_.size()));
+    for (Index i = begin, prepared = -1; i < end; ++i) {
+      const Index input = inputs[static_cast<std::size_t>(i)], view = input / options_.orientations;
+      if (view != prepared) {
+        const auto& path = dataset_.views[static_cast<std::size_t>(view)].path;
+        prepare(preprocessing_, read_image(dataset_.root / path), as_taken.data());
+        prepared = view;
+      }
+      float* to = pixels.data<float>() + i * preprocessing_.size();
+      const auto orientation = static_cast<int>(input % options_.orientations);
+      if (orientation == 0)
+        std::copy(as_taken.begin(), as_taken.end(), to);  // which need not be square
+      else
+        orient(orientation, preprocessing_.width, as_taken.data(), to);
+    }
   });
   return (frozen_ ? frozen_->run({pixels}) : pixels).reshaped(batched(count, shape()));
 }
