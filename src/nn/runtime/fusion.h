@@ -1,0 +1,69 @@
+#pragma once
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "nn/graph/graph.h"
+#include "nn/kernels/convolution_choice.h"
+#include "nn/kernels/epilogue.h"
+#include "nn/kernels/window.h"
+
+namespace svnet::runtime {
+
+using kernels::Convolution;
+
+/// The clamp that an activation is, if it is one.
+std::optional<kernels::Clamp> clamp_of(Activation activation);
+
+/// Which nodes of a folded graph become part of the step of their only reader, and what that makes of the reader:
+/// paddings and ReLUs before a convolution, additions, activations and pools behind it, the two or three convolutions
+/// of a separable block. The graph must outlive it.
+class Fusion {
+ public:
+  Fusion(const Graph& graph, Convolution convolution);
+
+  /// Whether the node is part of its reader's step.
+  bool fused(NodeId id) const { return fused_[at(id)]; }
+  /// The node whose value a convolution reads: past the padding or ReLU that is fused into it.
+  NodeId source(NodeId id) const;
+  /// Whether a ReLU is fused into the convolution that reads it.
+  bool relu_before(NodeId id) const;
+  /// Nodes that run as depthwise + pointwise in one.
+  bool is_separable(NodeId id) const;
+  bool uses_winograd(NodeId id) const;
+
+  /// The window of a convolution over one image, with the padding that is fused into it.
+  template <class L>
+  Window window(NodeId id, const L& layer) const {
+    return window_of(id, layer.kh, layer.kw, layer.stride_h, layer.stride_w, layer.padding);
+  }
+  Window pool_window(NodeId id, const Pool2dLayer& layer) const;
+
+ private:
+  static std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
+  const GraphNode& node(NodeId id) const { return graph_.node(id); }
+  template <class L>
+  const L* as(NodeId id) const {
+    return std::get_if<L>(&node(id).layer);
+  }
+  template <class L>
+  bool is(NodeId id) const {
+    return as<L>(id) != nullptr;
+  }
+
+  Window window_of(NodeId id, Index kh, Index kw, Index stride_h, Index stride_w, const Padding& own) const;
+  bool only_reader_of(NodeId input) const { return readers_[at(input)] == 1 && !fused(input); }
+  void fuse(NodeId id) { fused_[at(id)] = true; }
+  void fuse_inputs(NodeId id);
+  void fuse_padding(NodeId input, const Padding& own);
+  bool can_expand(NodeId depthwise) const;
+  bool can_add(NodeId id) const;
+  bool can_pool(NodeId id, const Pool2dLayer& layer) const;
+
+  const Graph& graph_;
+  const Convolution convolution_;
+  std::vector<int> readers_;
+  std::vector<bool> fused_;
+};
+
+}  // namespace svnet::runtime
