@@ -15,7 +15,9 @@ class FunctionRef<Result(Arguments...)> {
  public:
   template <class Callable>
   requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
-      FunctionRef(Callable&& callable)  // NOLINT(google-explicit-constructor): a parameter takes any callable
+      // A parameter takes any callable, and the constraint leaves copies alone.
+      // NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload)
+      FunctionRef(Callable&& callable)
       : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),
         call_([](void* what, Arguments... arguments) -> Result {
           return (*static_cast<std::remove_reference_t<Callable>*>(what))(std::forward<Arguments>(arguments)...);
