@@ -29,6 +29,25 @@ std::string_view digits_at(std::string_view text, std::size_t start) {
   return text.substr(start, end - start);
 }
 
+/// Length of the UTF-8 sequence that starts with `lead`, and the range of its second byte; length 0: none starts so.
+struct Sequence {
+  std::size_t length;
+  unsigned char second_low, second_high;
+};
+
+Sequence sequence_of(unsigned char lead) {
+  if (lead < 0x80) return {1, 0, 0};
+  if (lead < 0xC2) return {0, 0, 0};
+  if (lead < 0xE0) return {2, 0x80, 0xBF};
+  if (lead == 0xE0) return {3, 0xA0, 0xBF};
+  if (lead == 0xED) return {3, 0x80, 0x9F};
+  if (lead < 0xF0) return {3, 0x80, 0xBF};
+  if (lead == 0xF0) return {4, 0x90, 0xBF};
+  if (lead < 0xF4) return {4, 0x80, 0xBF};
+  if (lead == 0xF4) return {4, 0x80, 0x8F};
+  return {0, 0, 0};
+}
+
 }  // namespace
 
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates) {
@@ -85,6 +104,20 @@ bool natural_less(std::string_view a, std::string_view b) {
   }
   if (i < a.size() || j < b.size()) return i == a.size();
   return a < b;  // "01" and "1" are equal as numbers; any fixed order will do
+}
+
+bool is_plain_utf8(std::string_view text) {
+  for (std::size_t i = 0; i < text.size();) {
+    const Sequence sequence = sequence_of(static_cast<unsigned char>(text[i]));
+    if (sequence.length == 0 || text[i] == 0 || text.size() - i < sequence.length) return false;
+    for (std::size_t j = 1; j < sequence.length; ++j) {
+      const auto byte = static_cast<unsigned char>(text[i + j]);
+      const bool second = j == 1;
+      if (byte < (second ? sequence.second_low : 0x80) || byte > (second ? sequence.second_high : 0xBF)) return false;
+    }
+    i += sequence.length;
+  }
+  return true;
 }
 
 }  // namespace svnet

@@ -22,6 +22,9 @@ std::string percent(double share);
 /// nor break a line in two.
 std::string without_control_characters(std::string_view text);
 
+/// Whether `text` is well-formed UTF-8 (RFC 3629) without NUL, so that it can be stored and given to anyone.
+bool is_plain_utf8(std::string_view text);
+
 /// Less-than in natural order: runs of digits compare as numbers ("2" before "10"), everything else byte by byte.
 bool natural_less(std::string_view a, std::string_view b);
 

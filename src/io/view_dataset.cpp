@@ -13,6 +13,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "io/file_hash.h"
+#include "printable.h"
 
 namespace svnet {
 namespace {
@@ -32,6 +33,8 @@ std::vector<fs::path> entries(const fs::path& folder) {
   } catch (const fs::filesystem_error& error) {
     fail(folder.string(), ": cannot be read: ", error.code().message());
   }
+  for (const fs::path& path : found)
+    check(is_plain_utf8(path.filename().native()), printable(path.string()), ": its name is not UTF-8; rename it");
   std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
     return natural_less(a.filename().native(), b.filename().native());
   });

@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using Catch::Contains;
 namespace fs = std::filesystem;
 
 namespace {
@@ -108,4 +109,12 @@ TEST_CASE("a link that leads nowhere is named") {
   fs::create_symlink(folder.path() / "none", link);
   CHECK_THROWS_WITH(read_view_dataset(folder.path()),
                     link.string() + ": neither a file nor a folder; expected a category's folder");
+}
+
+TEST_CASE("a name that is not UTF-8 is refused: no file could list the view") {
+  const TemporaryFolder folder;
+  folder.write("mug/1/1/90_90.png", "");
+  const fs::path bad = folder.path() / "b\xff";
+  fs::create_directory(bad);
+  CHECK_THROWS_WITH(read_view_dataset(folder.path()), Contains(": its name is not UTF-8; rename it"));
 }

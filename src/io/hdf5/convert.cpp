@@ -4,6 +4,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/text.h"
 #include "datatype.h"
 #include "global_heap.h"
 

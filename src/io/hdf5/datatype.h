@@ -1,6 +1,5 @@
 #pragma once
 #include <string>
-#include <string_view>
 
 #include <hdf5.h>
 
@@ -17,8 +16,5 @@ struct ElementType {
 
 /// `type` of a file. Numbers are those that NumPy has (either byte order); other widths and layouts are Kind::other.
 ElementType element_type(hid_t type);
-
-/// Whether `text` is well-formed UTF-8 (RFC 3629) without NUL, so that it can be stored and given to anyone.
-bool is_plain_utf8(std::string_view text);
 
 }  // namespace svnet::hdf5

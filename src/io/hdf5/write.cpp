@@ -1,6 +1,7 @@
 #include <type_traits>
 
 #include "../printable.h"
+#include "base/text.h"
 #include "datatype.h"
 #include "file_state.h"
 #include "hdf5_file.h"
@@ -42,7 +43,7 @@ std::span<const T> handed(const File&, const std::string&, std::span<const T> va
 std::vector<const char*> handed(const File& file, const std::string& where, std::span<const std::string> values) {
   std::vector<const char*> pointers;
   for (const std::string& text : values) {
-    if (!hdf5::is_plain_utf8(text))
+    if (!is_plain_utf8(text))
       file.fail_at(where, "'", printable(text), "' is not UTF-8 (or contains NUL) and cannot be stored; rename it");
     pointers.push_back(text.c_str());
   }
