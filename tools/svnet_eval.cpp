@@ -3,9 +3,22 @@
 #include "io/atomic_file.h"
 #include "train/run.h"
 
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a run folder holds but its evaluation.json, which may be named again.
+std::vector<fs::path> files_of_run(const fs::path& folder) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder))
+    if (entry.path().filename() != "evaluation.json") files.push_back(entry.path());
+  return files;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   using namespace svnet;
-  namespace fs = std::filesystem;
   Command command(
       "svnet-eval",
       "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
@@ -27,9 +40,9 @@ int main(int argc, char** argv) {
       check(fs::exists(source / "config.yaml"), source.string(),
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const Config config = read_config(folder_given ? source / "config.yaml" : source);
-    if (!json.empty()) check_can_be_written(json);
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
+    if (!json.empty()) check_can_be_written(json, files_of_run(folder));
     console.log_to(folder / "log.txt");
     Run run(config, std::move(dataset), folder, console.messages());
     const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);

@@ -19,6 +19,12 @@ BackboneWithOrigin source_of(const std::string& backbone, const std::string& lay
   return {std::move(built_in->backbone), built_in->sha256};
 }
 
+std::vector<std::filesystem::path> pictures_of(const ViewDataset& dataset) {
+  std::vector<std::filesystem::path> files;
+  for (const View& view : dataset.views) files.push_back(dataset.root / view.path);
+  return files;
+}
+
 int run(int argc, char** argv, Team& team) {
   Command command(
       "svnet-features",
@@ -47,13 +53,14 @@ int run(int argc, char** argv, Team& team) {
   return command.run(
       argc, argv,
       [&](Console& console) {
-        if (team.first()) check_can_be_written(output);
+        if (team.first()) check_can_be_written(output, {weights});
         KerasLoadReport report;
         const BackboneWithOrigin source = source_of(backbone, layer, weights, report);
         if (!weights.empty())
           console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
                               report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
         const ViewDataset dataset = read_view_dataset(images);
+        if (team.first()) check_can_be_written(output, pictures_of(dataset));
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
         const Features features = extract_features(source.backbone, dataset, origin, console.messages(), team);
         if (team.first()) write_features(output, features);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.h"
+#include "io/atomic_file.h"
 #include "io/image_file.h"
 #include "io/pose_list_file.h"
 #include "predict/half_sphere_plot.h"
@@ -56,6 +57,7 @@ int main(int argc, char** argv) {
          "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red")
       ->type_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
+    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file});
     const std::vector<Pose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
     const Predictor predictor(model);
     const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);

@@ -90,7 +90,20 @@ LocalisedObject find_object(const Options& options, const CameraFile& camera) {
   return object;
 }
 
+/// Before the work, so that no output takes the place of an input or of another output.
+void check_outputs(const Options& options) {
+  std::vector<fs::path> others{options.camera, options.poses, options.reachable};
+  others.insert(others.end(), options.background.begin(), options.background.end());
+  others.insert(others.end(), options.current.begin(), options.current.end());
+  for (const fs::path& output : {options.csv, options.json, options.plot}) {
+    if (output.empty()) continue;
+    check_can_be_written(output, others);
+    others.push_back(output);
+  }
+}
+
 void write_views(const Options& options, Console& console) {
+  check_outputs(options);
   const CameraFile camera = read_camera(options.camera);
   const CameraFrame frame = camera_frame_named(options.frame);
   Json document;

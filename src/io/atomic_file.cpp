@@ -45,18 +45,42 @@ class Descriptor {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// Devices and folders would be lost, or fail only after the work: they are refused first.
-void check_target(const fs::path& path) {
+/// Where a write to `path` goes: the end of a chain of symbolic links.
+fs::path followed(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as Linux allows
+  fs::path target = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(target, error)); ++links) {
+    check(links < kMostLinks, path.string(), ": cannot be written: too many symbolic links");
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) fail_to_write(path, error.value());
+    target = folder_of(target) / next;
+  }
+  return target;
+}
+
+/// The file that a write to `path` replaces. Devices and folders would be lost, or fail only after the work: they are
+/// refused first.
+fs::path checked_target(const fs::path& path) {
   check(path.has_filename(), "'", path.string(), "': not the name of a file; give one that can be written");
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   check(!fs::is_directory(status), path.string(), ": cannot be written: it is a folder; give the name of a file");
   check(!fs::exists(status) || fs::is_regular_file(status), path.string(),
         ": cannot be written: it exists and is not a regular file; give another name");
-  const fs::path folder = folder_of(path);
+  const fs::path target = followed(path), folder = folder_of(target);
   const fs::file_status folder_status = fs::status(folder, error);
   check(folder_status.type() != fs::file_type::not_found, path.string(), ": cannot be written: the folder ",
         folder.string(), " does not exist; create it first");
+  return target;
+}
+
+/// Whether both are one file, which need not exist yet.
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const bool exists = fs::exists(a, error);
+  if (exists != fs::exists(b, error)) return false;
+  return exists ? fs::equivalent(a, b, error) : fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
 }
 
 /// What the names of a target's temporaries begin with; PID-N.tmp follows. The target's name is cut so that they are
@@ -141,20 +165,22 @@ void write_all(const fs::path& target, const fs::path& temporary, std::string_vi
 }  // namespace
 
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
-  check_target(path);
-  Temporary temporary(path);
+  const fs::path target = checked_target(path);
+  Temporary temporary(target);
   write(temporary.path());
-  temporary.sync_and_rename(path);
-  sync_folder(path);
+  temporary.sync_and_rename(target);
+  sync_folder(target);
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {
   write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, contents); });
 }
 
-void check_can_be_written(const fs::path& path) {
-  check_target(path);
-  const Temporary temporary(path);
+void check_can_be_written(const fs::path& path, const std::vector<fs::path>& others) {
+  const Temporary temporary(checked_target(path));
+  for (const fs::path& other : others)
+    check(other.empty() || !same_file(path, other), path.string(),
+          ": cannot be written: the command needs this file for something else; give another name");
 }
 
 }  // namespace svnet

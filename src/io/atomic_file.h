@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <functional>
 #include <string_view>
+#include <vector>
 
 namespace svnet {
 
@@ -11,8 +12,8 @@ namespace svnet {
 /// throws, the temporary is removed and `path` is left as it was. What a process that was killed while it wrote `path`
 /// has left behind is removed by the next one that writes it.
 ///
-/// `path` must not exist or be a regular file; a symbolic link is replaced, not followed. Throws Error that names
-/// `path` and says what the system said; exceptions of `write` pass through.
+/// `path` must not exist or be a regular file; of a symbolic link it is what the link points to, and the link stays.
+/// Throws Error that names `path` and says what the system said; exceptions of `write` pass through.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write);
 
@@ -20,7 +21,8 @@ void write_atomically(const std::filesystem::path& path,
 void write_atomically(const std::filesystem::path& path, std::string_view contents);
 
 /// Throws the Error that write_atomically would throw for this path, as far as it can be known beforehand: to be called
-/// before the work whose result is to be written.
-void check_can_be_written(const std::filesystem::path& path);
+/// before the work whose result is to be written. Throws as well where it is one of `others`, which the command reads
+/// or writes besides and which would be lost; empty ones are none.
+void check_can_be_written(const std::filesystem::path& path, const std::vector<std::filesystem::path>& others = {});
 
 }  // namespace svnet

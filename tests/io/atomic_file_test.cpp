@@ -74,6 +74,36 @@ TEST_CASE("targets that cannot be written are refused by name before any work") 
   CHECK_THROWS_WITH(write_atomically("", never), "'': not the name of a file; give one that can be written");
 }
 
+TEST_CASE("what a link points to is written, the link stays") {
+  const TemporaryFolder folder;
+  const fs::path real = folder.write("far/real.h5", "old"), link = folder.path() / "link.h5";
+  fs::create_symlink("far/real.h5", link);
+  write_atomically(link, "new");
+  CHECK(fs::is_symlink(link));
+  CHECK(file_contents(real) == "new");
+  fs::create_symlink("far/none.h5", folder.path() / "dangling");
+  write_atomically(folder.path() / "dangling", "made");
+  CHECK(file_contents(folder.path() / "far/none.h5") == "made");
+  CHECK(entries(folder.path() / "far") == 2);
+  fs::create_symlink("round", folder.path() / "round");
+  CHECK_THROWS_WITH(write_atomically(folder.path() / "round", "x"),
+                    (folder.path() / "round").string() + ": cannot be written: too many symbolic links");
+}
+
+TEST_CASE("an output that is needed otherwise is refused, by whatever name") {
+  const TemporaryFolder folder;
+  const fs::path input = folder.write("in.h5", "old"), link = folder.path() / "link.h5";
+  fs::create_symlink("in.h5", link);
+  const auto refusal = [](const fs::path& path) {
+    return path.string() + ": cannot be written: the command needs this file for something else; give another name";
+  };
+  CHECK_THROWS_WITH(check_can_be_written(input, {"", input}), refusal(input));
+  CHECK_THROWS_WITH(check_can_be_written(link, {input}), refusal(link));
+  const fs::path made = folder.path() / "made", again = folder.path() / "." / "made";
+  CHECK_THROWS_WITH(check_can_be_written(again, {made}), refusal(again));
+  CHECK_NOTHROW(check_can_be_written(made, {input, folder.path() / "other"}));
+}
+
 TEST_CASE("a folder without write permission is an error that says so") {
   if (::geteuid() == 0) {
     WARN("skipped: root may write everywhere");
