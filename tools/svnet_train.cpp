@@ -3,6 +3,7 @@
 #include "command/openblas_cap.h"
 #include "mpi/mpi_team.h"
 #include "train/run.h"
+#include "train/run_folder.h"
 
 namespace svnet {
 namespace {
@@ -42,6 +43,7 @@ int run(int argc, char** argv, Team& team) {
           return;
         }
         if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
+        check_run_folder(output, config.dataset.root);
         console.log_to(output / "log.txt");
         Run run(config, std::move(dataset), output, console.messages(), team);
         run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);

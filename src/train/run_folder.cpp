@@ -1,0 +1,61 @@
+#include "train/run_folder.h"
+
+#include <algorithm>
+#include <fstream>
+#include <string>
+
+#include "base/error.h"
+#include "train/config/config.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs write configurations without comments.
+bool is_by_hand(const fs::path& config) {
+  std::ifstream lines(config);
+  for (std::string line; std::getline(lines, line);)
+    if (line.find('#') != std::string::npos) return true;
+  try {
+    static_cast<void>(read_config(config));
+    return false;
+  } catch (const Error&) {
+    return true;
+  }
+}
+
+bool is_named_as_result(const fs::path& file) {
+  const std::string name = file.filename().string(), extension = file.extension().string();
+  return name == "model.safetensors" || name == "metrics.csv" || name == "scores.h5" || name == "evaluation.json" ||
+         name == "views.png" || (name.starts_with("features-") && extension == ".h5") ||
+         (name.starts_with("checkpoint-") && extension == ".safetensors");
+}
+
+/// Whether readers of the data set would come upon the folder.
+bool is_among_pictures(const fs::path& folder, const fs::path& root) {
+  const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(root));
+  if (relative.empty() || *relative.begin() == "..") return false;
+  return relative == "." || std::none_of(relative.begin(), relative.end(), [](const fs::path& part) {
+           return part.native().front() == '_' || part.native().front() == '.';
+         });
+}
+
+}  // namespace
+
+void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
+  check(!is_among_pictures(folder, dataset_root), folder.string(), ": lies in the data set ", dataset_root.string(),
+        "; give another folder for the run");
+  if (!fs::is_directory(folder)) return;
+  const fs::path config = folder / "config.yaml";
+  if (fs::exists(config)) {
+    check(!is_by_hand(config), config.string(),
+          ": was not written by a run, which would take its place; give another folder for the run");
+    return;
+  }
+  for (const auto& entry : fs::directory_iterator(folder))
+    check(!is_named_as_result(entry.path()), entry.path().string(),
+          ": a run would take its place, but no run was here, there is no config.yaml; give another folder");
+}
+
+}  // namespace svnet
