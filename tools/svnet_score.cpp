@@ -1,4 +1,6 @@
 // svnet-score: Monte-Carlo semantic scores of every view of a features file.
+#include <algorithm>
+
 #include "command/command.h"
 #include "command/openblas_cap.h"
 #include "io/atomic_file.h"
@@ -65,9 +67,12 @@ int run(int argc, char** argv, Team& team) {
       ->check(CLI::Range(Index{0}, Index{1} << 53))
       ->capture_default_str();
   const auto range = [&](const char* name, Index& value, const char* help) {
-    command.app().add_option(name, value, help)->check(CLI::Range(Index{0}, Index{1} << 31))->capture_default_str();
+    return command.app()
+        .add_option(name, value, help)
+        ->check(CLI::Range(Index{0}, Index{1} << 31))
+        ->capture_default_str();
   };
-  range("--min-categories", config.scores.min_categories, "Fewest categories of a problem");
+  const auto* fewest = range("--min-categories", config.scores.min_categories, "Fewest categories of a problem");
   range("--max-categories", config.scores.max_categories, "Most categories of a problem; 0: all");
   range("--min-objects", config.scores.min_objects, "Fewest objects of a category in a problem");
   range("--max-objects", config.scores.max_objects, "Most objects of a category in a problem; 0: all");
@@ -85,14 +90,19 @@ int run(int argc, char** argv, Team& team) {
         s.clustering = clustering_from_name(linkage);
         s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
         config.dataset.held_out = excluded;
-        if (team.first()) check_can_be_written(output);
+        if (team.first()) check_can_be_written(output, {features_file});
         const ViewDataset dataset = read_view_dataset(dataset_folder);
         const Features features = read_features(features_file);
         check_rows(dataset, features.paths, features_file.string());
         check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
               ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
-        const Scores scores = make_scores(output, dataset, features, named_categories(dataset, excluded, "--exclude"),
-                                          config, console.messages(),
+        const std::vector<bool> left_out = named_categories(dataset, excluded, "--exclude");
+        const auto available = std::count(left_out.begin(), left_out.end(), false);
+        check(available >= 2, available, " categories take part, at least 2 are needed",
+              excluded.empty() ? "" : "; --exclude fewer");
+        check(fewest->empty() || s.min_categories <= available, "--min-categories: ", s.min_categories, ", but ",
+              available, " categories take part");
+        const Scores scores = make_scores(output, dataset, features, left_out, config, console.messages(),
                                           {.resume = resume ? ScoresRun::Resume::any : ScoresRun::Resume::never,
                                            .snapshot_seconds = snapshot_seconds,
                                            .team = team});

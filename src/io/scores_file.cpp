@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "base/sha256.h"
 #include "io/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
 #include "printable.h"
@@ -66,8 +67,18 @@ void check_scores(const std::string& file, const Scores& scores) {
             ", out of range");
   }
   for (std::size_t row = 0; row < rows; ++row)
+    check(scores.count[row] <= static_cast<std::uint64_t>(scores.problems), file, ": dataset 'count': row ", row, " (",
+          printable(scores.paths[row]), ") was in ", scores.count[row], " of ", scores.problems, " problems");
+  for (std::size_t row = 0; row < rows; ++row)
     check(scores.count[row] == 0 || !std::isnan(scores.global[row]), file, ": dataset 'global': row ", row, " (",
           scores.paths[row], ") has no score although it was in ", scores.count[row], " problems");
+}
+
+/// Of everything that a snapshot says: a few changed bits would go unnoticed into every score.
+std::string checksum(const ScoresSnapshot& snapshot) {
+  Sha256 hash;
+  hash.update_field(snapshot.input_fingerprint).update_field(joined(snapshot.problems, " ", snapshot.views));
+  return hash.update(snapshot.sums.data(), snapshot.sums.size() * sizeof snapshot.sums[0]).hex();
 }
 
 }  // namespace
@@ -119,7 +130,17 @@ ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path) {
   check(snapshot.problems >= 0, file.name(), ": attribute 'problems': is ", snapshot.problems, ", expected a count");
   snapshot.views = sums.shape[0];
   snapshot.sums = std::move(sums.values);
+  check(file.text_attribute("", "checksum") == checksum(snapshot), file.name(),
+        ": is damaged, its checksum is another; delete it and start anew");
   return snapshot;
+}
+
+bool is_scores_snapshot(const std::filesystem::path& path) {
+  try {
+    return Hdf5File::open(path).has("sums");
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot) {
@@ -127,6 +148,7 @@ void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapsh
     Hdf5File file = Hdf5File::create(temporary, path.string());
     file.write_text_attribute("", "input_fingerprint", snapshot.input_fingerprint);
     file.write_number_attribute<std::int64_t>("", "problems", snapshot.problems);
+    file.write_text_attribute("", "checksum", checksum(snapshot));
     const auto numbers = snapshot.views == 0 ? 0 : static_cast<Index>(snapshot.sums.size()) / snapshot.views;
     file.write<std::uint64_t>("sums", {snapshot.views, numbers}, snapshot.sums);
     file.close();

@@ -36,7 +36,7 @@ struct Scores : ScoresOrigin {
 
 /// Throws Error that names the file, the dataset and the row unless lengths agree, there is at least one view, scores
 /// are in [0, 1] or NaN, standard errors are not negative or NaN, rank stabilities in [-1, 1] or NaN, and views with a
-/// count have a global score.
+/// count, which is at most that of the problems, have a global score.
 Scores read_scores(const std::filesystem::path& path);
 
 /// The attributes alone, for deciding whether scores can be used again.
@@ -53,13 +53,16 @@ struct ScoresSnapshot {
   std::vector<std::uint64_t> sums{};  // (views, numbers of a view), as the solver keeps them
 };
 
-// HDF5. Dataset `sums` (views, numbers) uint64; attributes `input_fingerprint`, `problems`.
+// HDF5. Dataset `sums` (views, numbers) uint64; attributes `input_fingerprint`, `problems`, `checksum`, a SHA-256.
 
 /// Where the snapshot of a scores file lies: beside it.
 std::filesystem::path snapshot_path(const std::filesystem::path& scores);
 
-/// Throws Error for a file that is no snapshot.
+/// Throws Error for a file that is no snapshot, or not as it was written.
 ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
+
+/// Whether the file is one, damaged or not.
+bool is_scores_snapshot(const std::filesystem::path& path);
 
 /// Replaces the file as a whole.
 void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot);

@@ -48,6 +48,11 @@ std::string describe_scores(const std::filesystem::path& file) {
                 most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error);
 }
 
+std::string describe_snapshot(const std::filesystem::path& file) {
+  const ScoresSnapshot s = read_scores_snapshot(file);
+  return joined("snapshot of semantic scores of ", s.views, " views\n  problems so far ", s.problems);
+}
+
 void add_layer(std::ostringstream& text, const std::string& name, const std::vector<KerasArray>& arrays, Index& count) {
   if (arrays.empty()) return;
   text << "\n  " << without_control_characters(name) << ":";
@@ -96,6 +101,7 @@ std::string description_of(const std::filesystem::path& file) {
   const Hdf5File hdf5 = Hdf5File::open(file);
   if (hdf5.has("features")) return describe_features(file);
   if (hdf5.has("individual")) return describe_scores(file);
+  if (is_scores_snapshot(file)) return describe_snapshot(file);
   return describe_weights(file);
 }
 

@@ -15,6 +15,11 @@
 namespace svnet {
 namespace {
 
+/// Where fewer categories take part than a problem may have, all of them are in every problem.
+Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores& s) {
+  return std::min(s.min_categories, static_cast<Index>(std::count(excluded.begin(), excluded.end(), false)));
+}
+
 std::string sampler_text(const Config::Scores& s) {
   const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
   return joined("uniform; categories ", s.min_categories, " to ", bound(s.max_categories), ", objects ", s.min_objects,
@@ -39,9 +44,8 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
   for (std::size_t c = 0; c < objects.size(); ++c)
     check(excluded[c] || objects[c] >= config.min_objects, "scores.min_objects: ", config.min_objects,
           ", but category '", dataset.categories[c], "' has ", objects[c], " objects");
-  const auto available = static_cast<Index>(excluded.size() - excluded_numbers.size());
   return {category, object, pose,
-          ProblemOptions{.min_categories = std::min(config.min_categories, available),
+          ProblemOptions{.min_categories = fewest_categories(excluded, config),
                          .max_categories = config.max_categories,
                          .min_objects = config.min_objects,
                          .max_objects = config.max_objects,
@@ -134,10 +138,11 @@ ScoreOptions score_options(const Config& config, Index dimension) {
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoresRun& run) {
-  const auto& s = config.scores;
+  Config::Scores drawn = config.scores;
+  drawn.min_categories = fewest_categories(excluded, drawn);
   const DistanceMatrix distances =
       squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared(), run.team);
-  const ClusteringProblems problems = clustering_problems(dataset, excluded, s);
+  const ClusteringProblems problems = clustering_problems(dataset, excluded, drawn);
   const ScoreOptions options = score_options(config, features.dimension);
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
 
@@ -150,8 +155,8 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
 
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
                              .seed = options.seed,
-                             .sampler = sampler_text(s),
-                             .clustering = clustering_name(s.clustering),
+                             .sampler = sampler_text(drawn),
+                             .clustering = clustering_name(drawn.clustering),
                              .metric = "fm",
                              .input_fingerprint = fingerprint},
                 std::move(made.individual),

@@ -85,6 +85,7 @@ TEST_CASE("damaged HDF5 files are read or refused") {
   SECTION("scores") {
     Scores scores;
     scores.individual = scores.global = scores.scaled = scores.standard_error = scores.rank_stability = {0.5, 0.25};
+    scores.problems = 3;
     scores.count = {1, 2};
     scores.paths = {"a", "b"};
     write_scores(path, scores);

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "base/error.h"
@@ -26,7 +27,7 @@ Scores example() {
   scores.individual = {0.25, 1, kNone};
   scores.global = {0.5, 0, kNone};
   scores.scaled = {0, 1, kNone};
-  scores.count = {12, UINT64_MAX, 0};
+  scores.count = {12, 30'000'000'000, 0};
   scores.standard_error = {0.01, 0, kNone};
   scores.rank_stability = {-0.5, -0.5, kNone};
   scores.paths = {"a", "b", "c"};
@@ -84,6 +85,8 @@ TEST_CASE("scores that cannot be true are refused, written or read") {
   CHECK_THAT(message([](Scores& s) { s.rank_stability[1] = -1.5; }), Contains("'rank_stability': row 1 (b) is -1.5"));
   CHECK_THAT(message([](Scores& s) { s.global[0] = kNone; }),
              Contains("'global': row 0 (a) has no score although it was in 12 problems"));
+  CHECK_THAT(message([](Scores& s) { s.count[0] = 30'000'000'001; }),
+             Contains("'count': row 0 (a) was in 30000000001 of 30000000000 problems"));
   CHECK_THAT(message([](Scores& s) { s.count.pop_back(); }), Contains("'count': has 2 rows, 'paths' has 3"));
   CHECK_THAT(message([](Scores& s) { s = Scores(); }), Contains("'paths': is empty"));
   CHECK(message([](Scores& s) { s.individual[0] = kNone; }) == "no error");
@@ -104,6 +107,18 @@ TEST_CASE("a snapshot of scores is read as it was written, and nothing else is t
   CHECK(snapshot.problems == 123456789012345);
   CHECK(snapshot.views == 2);
   CHECK(snapshot.sums == std::vector<std::uint64_t>{1, 2, 3, UINT64_MAX, 5, 6});
+  CHECK(is_scores_snapshot(path));
+  {
+    std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
+    const std::string bytes = file_contents(path);
+    const std::size_t at = bytes.find(std::string(8, '\xff') + std::string("\5\0\0\0\0\0\0\0", 8));
+    REQUIRE(at != std::string::npos);
+    file.seekp(static_cast<std::streamoff>(at));
+    file.put('\xfe');
+  }
+  CHECK_THROWS_WITH(read_scores_snapshot(path), Contains("scores.h5.snapshot: is damaged, its checksum is another"));
+  CHECK(is_scores_snapshot(path));
   write_scores(path, example());
+  CHECK(!is_scores_snapshot(path));
   CHECK_THROWS_WITH(read_scores_snapshot(path), Contains("scores.h5.snapshot") && Contains("'sums'"));
 }
