@@ -85,6 +85,16 @@ TEST_CASE("holes in depth are tolerated") {
   CHECK(object.height_m == Approx(0.04).margin(0.004));
 }
 
+TEST_CASE("a knife that stands on its edge is found to its tip, though its blade looks like a shadow from above") {
+  const Mesh mesh = catalogue_object("knife", 2, 6);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    INFO("seed " << seed);
+    const PosedObject posed = pose_object(mesh, 1, seed, 7);
+    const Overview overview = take_overview(posed, seed, 7);
+    CHECK(find(overview.background, overview.current).length_m == Approx(0.315).margin(0.008));
+  }
+}
+
 TEST_CASE("nothing, a part of an object, and several objects are refused") {
   const Mesh mesh = block();
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);

@@ -106,6 +106,38 @@ cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, const cv::M
   return smooth;
 }
 
+/// The patches of `likely` pixels that hold enough `sure` ones. An edge seen from above, such as that of a blade, is
+/// one pixel wide and full of holes: only single pixels of it were `measured`, and those that lie near each other count
+/// together.
+cv::Mat1b without_specks(const cv::Mat1b& likely, const cv::Mat1b& sure, const cv::Mat1b& measured) {
+  constexpr int kLeastSure_px = 8, kLeast_px = 12, kGap_px = 16;
+  cv::Mat patches, groups;
+  cv::Mat1b joined;
+  cv::dilate(measured, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {kGap_px + 1, kGap_px + 1}));
+  const auto patch_count = static_cast<std::size_t>(cv::connectedComponents(likely, patches, 8));
+  const auto group_count = static_cast<std::size_t>(cv::connectedComponents(joined, groups, 8));
+  std::vector<int> area(patch_count, 0), sure_pixels(patch_count, 0), measured_pixels(group_count, 0);
+  const auto at = [](const cv::Mat& labels, int y, int x) { return static_cast<std::size_t>(labels.at<int>(y, x)); };
+  const auto each_likely = [&](const auto& body) {
+    for (int y = 0; y < likely.rows; ++y)
+      for (int x = 0; x < likely.cols; ++x)
+        if (likely(y, x) != 0) body(y, x);
+  };
+  each_likely([&](int y, int x) {
+    ++area[at(patches, y, x)];
+    if (sure(y, x) != 0) ++sure_pixels[at(patches, y, x)];
+    if (measured(y, x) != 0) ++measured_pixels[at(groups, y, x)];
+  });
+  std::vector<bool> kept(patch_count);
+  for (std::size_t i = 0; i < patch_count; ++i) kept[i] = area[i] >= kLeast_px && sure_pixels[i] >= kLeastSure_px;
+  each_likely([&](int y, int x) {
+    if (measured(y, x) != 0 && measured_pixels[at(groups, y, x)] >= kLeastSure_px) kept[at(patches, y, x)] = true;
+  });
+  cv::Mat1b mask(likely.size(), 0);
+  each_likely([&](int y, int x) { mask(y, x) = kept[at(patches, y, x)] ? 255 : 0; });
+  return mask;
+}
+
 }  // namespace
 
 Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& background_depth_m, const cv::Mat3b& rgb,
@@ -144,7 +176,7 @@ Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& bac
   cv::dilate(result.difference, strongest, cv::Mat1b::ones(3, 3));
 
   // What is sure, and what is likely where it touches that.
-  cv::Mat1b likely(rgb.size(), 0), sure(rgb.size(), 0);
+  cv::Mat1b likely(rgb.size(), 0), sure(rgb.size(), 0), measured(rgb.size(), 0);
   for (int y = 0; y < rgb.rows; ++y)
     for (int x = 0; x < rgb.cols; ++x) {
       const float rise = result.rise_m(y, x), difference = result.difference(y, x);
@@ -159,21 +191,11 @@ Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& bac
         differs = !(most < 1.1f && least > kShadowDarkest && most < kShadowTint * least);
       }
       if (differs || rise > kLeastRise_m) likely(y, x) = 255;
-      if ((differs && difference > kSureDifference) || rise > kSureRise_m || rise_m(y, x) > kSureMeasured_m)
+      if (rise_m(y, x) > kSureMeasured_m) measured(y, x) = 255;
+      if ((differs && difference > kSureDifference) || rise > kSureRise_m || measured(y, x) != 0)
         likely(y, x) = sure(y, x) = 255;
     }
-  cv::Mat labels;
-  const int count = cv::connectedComponents(likely, labels, 8);
-  std::vector<int> sure_pixels(static_cast<std::size_t>(count), 0);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x)
-      if (sure(y, x) != 0) ++sure_pixels[static_cast<std::size_t>(labels.at<int>(y, x))];
-  sure_pixels[0] = 0;
-  constexpr int kSpeck_px = 8;
-  result.mask = cv::Mat1b(rgb.size(), 0);
-  for (int y = 0; y < rgb.rows; ++y)
-    for (int x = 0; x < rgb.cols; ++x)
-      if (sure_pixels[static_cast<std::size_t>(labels.at<int>(y, x))] >= kSpeck_px) result.mask(y, x) = 255;
+  result.mask = without_specks(likely, sure, measured);
   return result;
 }
 

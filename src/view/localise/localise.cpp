@@ -45,20 +45,15 @@ Image image_of(const cv::Mat& picture) {
 
 /// The pixels of the object: parts less than about 16 pixels apart are one.
 cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
-  constexpr int kSpeck_px = 12, kLeast_px = 40;
-  cv::Mat labels, stats, centres;
-  cv::Mat1b clean = foreground.clone();
-  int count = cv::connectedComponentsWithStats(foreground, labels, stats, centres, 8);
-  for (int y = 0; y < clean.rows; ++y)
-    for (int x = 0; x < clean.cols; ++x)
-      if (clean(y, x) != 0 && stats.at<int>(labels.at<int>(y, x), cv::CC_STAT_AREA) < kSpeck_px) clean(y, x) = 0;
+  constexpr int kLeast_px = 40;
+  cv::Mat labels;
   cv::Mat1b joined;
-  cv::dilate(clean, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
-  count = cv::connectedComponents(joined, labels, 8);
+  cv::dilate(foreground, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
+  const int count = cv::connectedComponents(joined, labels, 8);
   std::vector<int> area(static_cast<std::size_t>(count), 0);
-  for (int y = 0; y < clean.rows; ++y)
-    for (int x = 0; x < clean.cols; ++x)
-      if (clean(y, x) != 0) ++area[static_cast<std::size_t>(labels.at<int>(y, x))];
+  for (int y = 0; y < foreground.rows; ++y)
+    for (int x = 0; x < foreground.cols; ++x)
+      if (foreground(y, x) != 0) ++area[static_cast<std::size_t>(labels.at<int>(y, x))];
   const auto largest = std::max_element(area.begin() + 1, area.end());
   check(
       count > 1 && *largest >= kLeast_px,
@@ -67,7 +62,7 @@ cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
                                      [&](int pixels) { return pixels >= kLeast_px && pixels >= *largest / 12; });
   check(objects == 1 || take_largest, "[localise] there are ", objects,
         " objects; leave one on the table, or ask for the largest");
-  return clean & (labels == static_cast<int>(largest - area.begin()));
+  return foreground & (labels == static_cast<int>(largest - area.begin()));
 }
 
 /// The depth of a pixel at the object's edge: the median of those around it that belong to the object and were
