@@ -137,14 +137,16 @@ const Image& fullest_view(const Collected& pose) {
   return pose.views[best].picture.rgb;
 }
 
-/// What is kept of a pose: the manifest's entry, and a picture for the contact sheet.
+/// What is kept of a pose: the manifest's entry, and a picture for the contact sheet. Or why there is none.
 struct Entry {
   Json manifest;
   Image picture;
+  std::string problem;
 };
 
 /// Collects a pose, again under another light and elsewhere where it fails, as a robot's keeper would: its views into
-/// `folder`, the rest into `extra`.
+/// `folder`, the rest into `extra`. After some failures it leaves the pose out, so that one that the camera cannot see
+/// does not cost the others.
 Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
               const fs::path& extra) {
   constexpr std::uint32_t kTries = 16;
@@ -154,7 +156,7 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
     try {
       found = try_to_collect(mesh, pose, options.size, options.seed * 1009 + tries++, number);
     } catch (const Error& error) {
-      check(tries < kTries, "pose ", pose + 1, " was not collected in ", kTries, " tries: ", error.what());
+      if (tries == kTries) return {{}, {}, joined("not collected in ", kTries, " tries: ", error.what())};
     }
   }
   fs::create_directories(folder);
@@ -182,7 +184,8 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
                {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
                {"tries", tries},
                {"views", names}},
-          fullest_view(*found)};
+          fullest_view(*found),
+          {}};
 }
 
 void render(const Options& options, Console& console) {
@@ -195,6 +198,10 @@ void render(const Options& options, Console& console) {
   std::vector<Index> place_in_category(sources.size(), 0);
   for (std::size_t i = 1; i < sources.size(); ++i)
     if (sources[i].category == sources[i - 1].category) place_in_category[i] = place_in_category[i - 1] + 1;
+  const auto place_of = [&](Index number) {
+    const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
+    return fs::path(source.category) / source.object / std::to_string(number % options.poses + 1);
+  };
   std::vector<Entry> entries(static_cast<std::size_t>(total));
   Progress progress(console.messages(), "poses", total);
   // A few poses of each thread between two reports. Each is a piece of work of its own, with its own random numbers.
@@ -204,7 +211,7 @@ void render(const Options& options, Console& console) {
     Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
       const Index number = first + begin, pose = number % options.poses;
       const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
-      const fs::path where = fs::path(source.category) / source.object / std::to_string(pose + 1);
+      const fs::path where = place_of(number);
       try {
         const Mesh mesh = source.file.empty() ? catalogue_object(source.category, source.design, options.seed)
                                               : read_mesh(source.file, options.metres_per_unit);
@@ -220,8 +227,14 @@ void render(const Options& options, Console& console) {
         fail(text.starts_with(source.file.string()) ? text : source.file.string() + ": " + text);
       }
     });
+    for (Index number = first; number < first + count; ++number)
+      if (const Entry& entry = entries[static_cast<std::size_t>(number)]; !entry.problem.empty())
+        console.line(joined("left out: ", place_of(number).string(), ": ", entry.problem));
     progress.update(first + count);
   }
+  const auto left_out =
+      std::count_if(entries.begin(), entries.end(), [](const Entry& e) { return !e.problem.empty(); });
+  check(left_out < total, "no pose was collected; the first, ", place_of(0).string(), ": ", entries.front().problem);
 
   Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options.seed}, {"size_px", options.size}};
   Index pictures = 0;
@@ -229,9 +242,13 @@ void render(const Options& options, Console& console) {
   for (Index number = 0; number < total; ++number) {
     const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
     Entry& entry = entries[static_cast<std::size_t>(number)];
+    const std::string pose = std::to_string(number % options.poses + 1);
+    if (!entry.problem.empty()) {
+      manifest["left_out"][source.category][source.object][pose] = std::move(entry.problem);
+      continue;
+    }
     pictures += static_cast<Index>(entry.manifest.at("views").size());
-    manifest["poses"][source.category][source.object][std::to_string(number % options.poses + 1)] =
-        std::move(entry.manifest);
+    manifest["poses"][source.category][source.object][pose] = std::move(entry.manifest);
     if (sheet.empty() || sheet.back().label != source.category) sheet.push_back({source.category, {}});
     if (!entry.picture.rgb.empty()) sheet.back().pictures.push_back(std::move(entry.picture));
   }
@@ -241,7 +258,8 @@ void render(const Options& options, Console& console) {
              camera_json({overview_camera(), overview_camera_to_world()}));
   write_text(folder.path() / "_extra" / "view_camera.json", camera_json({view_camera(options.size), {}}));
   folder.keep();
-  console.result(joined(pictures, " pictures of ", total, " poses in ", options.output.string()));
+  console.result(joined(pictures, " pictures of ", total - left_out, " poses in ", options.output.string(),
+                        left_out > 0 ? joined("; ", left_out, " left out, as manifest.json tells") : ""));
 }
 
 }  // namespace

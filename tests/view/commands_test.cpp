@@ -59,14 +59,43 @@ TEST_CASE("svnet-render writes a data set, the same for any number of threads") 
   CHECK_FALSE(std::filesystem::exists(folder.path() / "x.partial"));
 }
 
+namespace {
+
+std::string box(int length, int width, int height) {
+  std::string text;
+  for (int i = 0; i < 8; ++i)
+    text += "v " + std::to_string(length * (i & 1)) + " " + std::to_string(width * (i >> 1 & 1)) + " " +
+            std::to_string(height * (i >> 2)) + "\n";
+  return text + "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
+}
+
+}  // namespace
+
+TEST_CASE("svnet-render leaves out a pose that cannot be collected, and says so") {
+  const TemporaryFolder folder;
+  folder.write("meshes/box/brick.obj", box(80, 60, 50));
+  folder.write("meshes/box/crumb.obj", box(1, 1, 1));  // smaller than a pixel of the overview
+  const std::string options = SVNET_RENDER " --unit 0.001 --poses 1 --size 32 ";
+  const Ran ran = run(folder, options + "--meshes meshes --output d");
+  REQUIRE(ran.status == 0);
+  const std::string problem = "not collected in 16 tries: [localise] nothing is found";
+  CHECK_THAT(ran.err, Catch::Contains("left out: box/crumb/1: " + problem));
+  CHECK_THAT(ran.out, Catch::Contains(" pictures of 1 poses in d; 1 left out, as manifest.json tells\n"));
+  const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
+  CHECK_THAT(manifest.at("left_out").at("box").at("crumb").at("1").get<std::string>(), Catch::StartsWith(problem));
+  CHECK(manifest.at("poses").at("box").size() == 1);
+  const ViewDataset dataset = read_view_dataset(folder.path() / "d");
+  REQUIRE(dataset.poses.size() == 1);
+
+  std::filesystem::remove(folder.path() / "meshes/box/brick.obj");
+  CHECK_THAT(run(folder, options + "--quiet --meshes meshes --output e").err,
+             Catch::StartsWith("svnet-render: no pose was collected; the first, box/crumb/1: " + problem));
+  CHECK_FALSE(std::filesystem::exists(folder.path() / "e"));
+}
+
 TEST_CASE("svnet-render takes meshes of one's own") {
   const TemporaryFolder folder;
-  std::string cube = "# 80 x 60 x 50 mm\n";
-  for (int i = 0; i < 8; ++i)
-    cube += "v " + std::to_string(80 * (i & 1)) + " " + std::to_string(60 * (i >> 1 & 1)) + " " +
-            std::to_string(50 * (i >> 2)) + "\n";
-  cube += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
-  folder.write("meshes/box/brick.obj", cube);
+  folder.write("meshes/box/brick.obj", box(80, 60, 50));
   REQUIRE(run(folder, SVNET_RENDER " --quiet --output d --meshes meshes --unit 0.001 --poses 1 --size 32").status == 0);
   const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
   const auto& pose = manifest.at("poses").at("box").at("brick").at("1");
