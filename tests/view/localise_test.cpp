@@ -7,6 +7,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/parallel.h"
+#include "view/localise/enclosing_circle.h"
 #include "view/render/catalogue.h"
 #include "view/render/collection.h"
 #include "view/render/sculptor.h"
@@ -113,6 +114,30 @@ TEST_CASE("nothing, a part of an object, and several objects are refused") {
   CHECK(find(before, two, {.take_largest = true}).length_m == Approx(0.12).margin(0.006));
 }
 
+TEST_CASE("the soft enclosing circle is the smallest one where that is certain, and steadier where it is not") {
+  const std::vector<cv::Point2f> square{{0, 0}, {80, 0}, {80, 80}, {0, 80}};
+  const cv::Point2d middle = soft_enclosing_centre(square, 0.5);
+  CHECK(middle.x == Approx(40).margin(1e-3));
+  CHECK(middle.y == Approx(40).margin(1e-3));
+
+  // The tip of a handle and the corners of what it holds, one of which was seen a millimetre too far out.
+  const std::vector<cv::Point2f> fork{{0, 0}, {200, -12}, {200, 12}}, seen{{0, 0}, {201, -12}, {200, 12}};
+  const auto exact = [](const std::vector<cv::Point2f>& points) {
+    cv::Point2f centre;
+    float radius = 0;
+    cv::minEnclosingCircle(points, centre, radius);
+    return cv::Point2d(centre);
+  };
+  CHECK(cv::norm(soft_enclosing_centre(fork, 0.001) - exact(fork)) < 0.01);
+  CHECK(cv::norm(soft_enclosing_centre(fork, 0.5) - exact(fork)) < 1);
+  CHECK(cv::norm(exact(seen) - exact(fork)) > 4);
+  CHECK(cv::norm(soft_enclosing_centre(seen, 0.5) - exact(fork)) < 2.5);
+
+  const cv::Point2d alone = soft_enclosing_centre({{3, 4}}, 0.5);
+  CHECK(alone.x == Approx(3));
+  CHECK(alone.y == Approx(4));
+}
+
 TEST_CASE("pictures of another size than the camera's are refused") {
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
   RgbdPicture small = before;
@@ -128,12 +153,12 @@ namespace {
 /// Errors in millimetres: x, y, z of GC, length, width, height. 1000 where the object is not found.
 using Errors = std::array<double, 6>;
 
-/// What objects, poses and pictures are drawn with. Localisation was developed on the first; on the second, thin grey
-/// blades that look like shadows of themselves put 7 % of x beyond the limit.
+/// What objects, poses and pictures are drawn with. Localisation was developed on the first, and on (101, 103), (201,
+/// 202) to (207, 208); not on the others.
 struct Seeds {
   std::uint32_t shapes, poses;
 };
-constexpr Seeds kDevelopment{1, 3}, kFresh{101, 103};
+constexpr Seeds kDevelopment{1, 3}, kFresh[] = {{301, 302}, {303, 304}, {305, 306}};
 
 /// Localises objects 0 … count of the catalogue, category by category, each in another pose.
 std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
@@ -195,14 +220,14 @@ TEST_CASE("objects of every category are found to millimetres, but for a few tha
 
 TEST_CASE("localisation of 200 objects, measured", "[.measure]") {
   const double limits_mm[] = {3, 3, 4, 5, 5, 5};
-  for (const Seeds& seeds : {kDevelopment, kFresh}) {
+  for (const Seeds& seeds : {kDevelopment, kFresh[0], kFresh[1], kFresh[2]}) {
     const std::vector<Errors> errors = overview_errors(200, seeds);
     for (std::size_t which = 0; which < 6; ++which) {
       WARN("seeds " << seeds.shapes << ", " << seeds.poses << ": "
                     << (std::array{"x", "y", "z", "length", "width", "height"}[which]) << ": median "
                     << percentile(errors, which, 0.5) << ", 90 % " << percentile(errors, which, 0.9) << ", 95 % "
                     << percentile(errors, which, 0.95) << " mm");
-      if (seeds.shapes == kDevelopment.shapes) CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
+      CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
     }
   }
 }

@@ -6,6 +6,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
+#include "enclosing_circle.h"
 #include "foreground.h"
 
 namespace svnet {
@@ -150,9 +151,8 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   check(outline.size() >= 3, "[localise] the depth picture has no measurements along the object's contour");
   pixel_mm /= static_cast<double>(outline.size());
   const cv::RotatedRect rectangle = cv::minAreaRect(outline);
-  cv::Point2f middle;
-  float radius = 0;
-  cv::minEnclosingCircle(outline, middle, radius);
+  constexpr double kSoftness_px = 0.3;  // of a contour point, by far the most of it from the pixels' own size
+  const cv::Point2d middle = soft_enclosing_centre(outline, kSoftness_px * pixel_mm);
 
   LocalisedObject result;
   // Contour pixels' centres lie half a pixel inside the contour, which blur has moved outwards by a fifth.

@@ -22,7 +22,8 @@ struct LocaliseOptions {
 };
 
 struct LocalisedObject {
-  Eigen::Vector3d centre_m;  // GC: the middle of the smallest circle around the contour, half way up; world
+  Eigen::Vector3d centre_m;  // GC: the middle of the smallest circle around the contour (enclosing_circle.h), half way
+                             // up; world
   double length_m,
       width_m;        // the longer and the shorter side of the smallest rectangle around the contour in the xy plane
   double height_m;    // above the table
