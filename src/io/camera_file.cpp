@@ -52,6 +52,9 @@ CameraFile read_camera(const std::filesystem::path& path) {
   const Eigen::Quaterniond rotation(p[6], p[3], p[4], p[5]);
   check(std::abs(rotation.norm() - 1) < 1e-3, name, ": pose: the quaternion has length ", rotation.norm(),
         ", expected 1");
+  constexpr double kFarthest_m = 1e6;
+  for (int i = 0; i < 3; ++i)
+    check(std::abs(p[i]) < kFarthest_m, name, ": pose: ", "xyz"[i], "_m is ", p[i], ", expected metres in the world");
   camera.camera_to_world = Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
   return camera;
 }

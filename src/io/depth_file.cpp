@@ -1,5 +1,6 @@
 #include "io/depth_file.h"
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -14,6 +15,16 @@ namespace svnet {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// Of a scene that a robot looks at; beyond it numbers are in another unit.
+constexpr float kFarthest_m = 100;
+
+const DepthImage& checked(const std::string& name, const DepthImage& image) {
+  const auto is_distance = [](float z) { return z > 0 && z < kFarthest_m; };
+  check(std::any_of(image.metres.begin(), image.metres.end(), is_distance), name, ": holds no distance between 0 and ",
+        kFarthest_m, " m; depth is in millimetres in a PNG, in metres in .npy");
+  return image;
+}
 
 float metres_or_hole(double z) { return std::isfinite(z) && z > 0 ? static_cast<float>(z) : 0.0f; }
 
@@ -72,14 +83,14 @@ static_assert(std::endian::native == std::endian::little);
 DepthImage read_depth(const fs::path& path) {
   const std::vector<std::uint8_t> file = picture_contents(path);
   const std::string name = path.string();
-  if (has_bytes(file, 0, "\x93NUMPY")) return decode_npy(name, file);
+  if (has_bytes(file, 0, "\x93NUMPY")) return checked(name, decode_npy(name, file));
   check(has_bytes(file, 0, "\x89PNG\r\n\x1a\n"), name,
         ": is neither a PNG nor a NumPy file, expected depth as 16-bit PNG in millimetres or .npy in metres");
   const Grey16 grey = decode_grey16_png(name, file);
   DepthImage image{grey.height, grey.width, {}};
   image.metres.reserve(grey.levels.size());
   for (const std::uint16_t level : grey.levels) image.metres.push_back(static_cast<float>(level) / 1000);
-  return image;
+  return checked(name, image);
 }
 
 void write_depth_png(const fs::path& path, const DepthImage& depth) {

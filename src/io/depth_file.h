@@ -9,7 +9,7 @@ namespace svnet {
 
 /// A depth picture: a 16-bit grey PNG in millimetres, or a NumPy file (.npy) of a two-dimensional array of 32-bit or
 /// 64-bit floats in metres. The kind is told by the contents. Zero, and what is no positive finite number, is a hole.
-/// Throws Error, one line that names `path`, for anything else.
+/// Throws Error, one line that names `path`, for anything else, and where no number is a distance below 100 m.
 DepthImage read_depth(const std::filesystem::path& path);
 
 /// A 16-bit PNG in millimetres; distances above 65.535 m become holes. Throws Error that names `path`.

@@ -12,9 +12,13 @@ std::string intrinsics_problem(const Intrinsics& camera) {
   if (camera.width <= 0 || camera.height <= 0)
     return joined("the picture has ", camera.width, "x", camera.height,
                   " pixels, expected a positive width and height");
-  for (const auto& [name, value] : {std::pair("fx", camera.fx), std::pair("fy", camera.fy)})
+  for (const auto& [name, value, size] :
+       {std::tuple("fx", camera.fx, camera.width), std::tuple("fy", camera.fy, camera.height)}) {
     if (!(std::isfinite(value) && value > 0))
       return joined(name, " is ", value, ", expected a positive number of pixels");
+    if (value < 0.01 * static_cast<double>(size))
+      return joined(name, " is ", value, " for ", size, " pixels: no camera sees so much; is it in pixels?");
+  }
   for (const auto& [name, value, size] :
        {std::tuple("cx", camera.cx, camera.width), std::tuple("cy", camera.cy, camera.height)})
     if (!(value >= -0.5 && value <= static_cast<double>(size) - 0.5))
@@ -52,6 +56,8 @@ Eigen::Isometry3d camera_pose(const Pose& pose, double radius_m, const Eigen::Ve
     result.linear() << x, y, z;
   else
     result.linear() << -x, -y, z;
+  check(result.translation().allFinite(), "[view] the camera's place is not finite: the centre is (",
+        centre_m.transpose(), "), the radius ", radius_m, " m");
   return result;
 }
 

@@ -43,6 +43,10 @@ TEST_CASE("camera files that cannot be used get one line that names them") {
   CHECK(message(R"({"width": 640, "pose": {"x_m": 0}, )" + rest + "}") == name + "pose: the key 'y_m' is missing");
   CHECK(message(R"({"width": 640, "pose": {"x_m": 0, "y_m": 0, "z_m": 1, "qx": 0, "qy": 0, "qz": 0, "qw": 2}, )" +
                 rest + "}") == name + "pose: the quaternion has length 2, expected 1");
+  CHECK(message(R"({"width": 640, "pose": {"x_m": 0, "y_m": 0, "z_m": 1e300, "qx": 1, "qy": 0, "qz": 0, "qw": 0}, )" +
+                rest + "}") == name + "pose: z_m is 1e+300, expected metres in the world");
+  CHECK(message(R"({"width": 640, "height": 480, "fx": 1e-9, "fy": 600, "cx": 320, "cy": 240})") ==
+        name + "fx is 1e-09 for 640 pixels: no camera sees so much; is it in pixels?");
   CHECK_THROWS_WITH(read_camera(folder.path() / "none"),
                     (folder.path() / "none").string() + ": cannot be read; expected a JSON file of a camera");
 }

@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cstring>
+#include <limits>
 
 #include "io/image_file.h"
 #include "temporary_folder.h"
@@ -76,6 +77,13 @@ TEST_CASE("depth files that cannot be read get one line that names them") {
   const std::string whole = npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }", data);
   for (std::size_t length = 6; length < whole.size(); ++length)
     CHECK_THAT(message(whole.substr(0, length)), Catch::StartsWith(name));
+  const auto numbers = [&](float a, float b) {
+    return message(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }", bytes(std::vector<float>{a, b})));
+  };
+  const std::string no_distance =
+      name + "holds no distance between 0 and 100 m; depth is in millimetres in a PNG, in metres in .npy";
+  CHECK(numbers(812, 950) == no_distance);
+  CHECK(numbers(0, std::numeric_limits<float>::quiet_NaN()) == no_distance);
   write_png(folder.path() / "d", {1, 2, std::vector<std::uint8_t>(6)});
   CHECK(refusal(folder.path() / "d") == name + "is a PNG of another kind, expected 16-bit grey, depth in millimetres");
   write_depth_png(folder.path() / "d", {1, 2, {1, 2}});

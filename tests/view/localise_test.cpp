@@ -138,6 +138,16 @@ TEST_CASE("the soft enclosing circle is the smallest one where that is certain, 
   CHECK(alone.y == Approx(4));
 }
 
+TEST_CASE("exchanged pictures and a camera upside down are refused") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0.05, 0, 1, 4);
+  CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the pictures of the table and of the object "
+                                                     "exchanged?"));
+  CHECK_THROWS_WITH(
+      localise(overview_camera(), Eigen::Isometry3d::Identity(), {before.rgb, before.depth}, {after.rgb, after.depth}),
+      Catch::StartsWith("[localise] the camera looks upwards"));
+}
+
 TEST_CASE("pictures of another size than the camera's are refused") {
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
   RgbdPicture small = before;

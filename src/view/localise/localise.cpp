@@ -115,7 +115,11 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
   // Almost the highest of all; of large objects too, whose highest part may be a hook or the end of a handle.
   constexpr double kShare = 0.008, kMost_px = 12;
   const double share = std::min(kShare, kMost_px / static_cast<double>(top.size()));
-  return {table_m, std::max(percentile(top, 1 - share) - table_m, 0.0)};
+  const double height_m = percentile(top, 1 - share) - table_m;
+  constexpr double kNoise_m = 0.005;
+  check(height_m > -kNoise_m, "[localise] what is new lies ", -height_m,
+        " m below the table; are the pictures of the table and of the object exchanged?");
+  return {table_m, std::max(height_m, 0.0)};
 }
 
 }  // namespace
@@ -124,6 +128,8 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
                          const RgbdView& current, const LocaliseOptions& options) {
   const std::string problem = intrinsics_problem(camera);
   check(problem.empty(), "[localise] ", problem);
+  check(camera_to_world.linear()(2, 2) < 0,
+        "[localise] the camera looks upwards; give the pose of its optical frame (z forward) in a world with z up");
   check_fits(camera, background, "background");
   check_fits(camera, current, "current");
   const cv::Mat3b before = rgb_of(background.rgb), after = rgb_of(current.rgb);

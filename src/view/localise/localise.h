@@ -38,8 +38,8 @@ struct LocalisedObject {
 /// and sensor noise do not matter, nor do holes in depth. `camera_to_world` is the optical frame's pose in a world
 /// whose z axis is vertical.
 ///
-/// Throws Error where pictures do not fit the camera, nothing is found, the object is cut off by the border, or there
-/// are several objects.
+/// Throws Error where pictures do not fit the camera, nothing is found, the object is cut off by the border, there are
+/// several objects, what is new lies below the table, or the camera does not look down at it.
 LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
                          const RgbdView& current, const LocaliseOptions& = {});
 
