@@ -153,11 +153,11 @@ TEST_CASE("a scene sees a block where the camera's equations put it") {
 }
 
 TEST_CASE("the sensor's noise is that of the paper's camera") {
-  Shot shot{200,
-            200,
-            std::vector<Vec3>(40000, Vec3(0.2f, 0.2f, 0.2f)),
-            {200, 200, std::vector<float>(40000, 0.8f)},
-            std::vector<std::uint8_t>(40000)};
+  Shot shot;
+  shot.height = shot.width = shot.depth.height = shot.depth.width = 200;
+  shot.radiance.assign(40000, Vec3(0.2f, 0.2f, 0.2f));
+  shot.depth.metres.assign(40000, 0.8f);
+  shot.mask.assign(40000, 0);
   shot.depth.metres[100 * 200 + 100] = 0.5f;  // a spike, whose neighbours are on a silhouette
   const RgbdPicture picture = sensed(shot, {3, 7});
   double sum = 0, squares = 0;
