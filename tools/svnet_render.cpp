@@ -191,10 +191,10 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
 void render(const Options& options, Console& console) {
   constexpr Index kSheetPictures = 15;  // of each category, so that the sheet fits a screen's width
   constexpr Index kSheetCell_px = 96;
-  FreshFolder folder(options.output);
   const std::vector<Source> sources = options.meshes.empty() ? sources_of_catalogue(options) : sources_in(options);
   const auto total = static_cast<Index>(sources.size()) * options.poses;
   check(total < 0x10000, "there are ", total, " objects and poses, more than 65535; take fewer");
+  FreshFolder folder(options.output);
   std::vector<Index> place_in_category(sources.size(), 0);
   for (std::size_t i = 1; i < sources.size(); ++i)
     if (sources[i].category == sources[i - 1].category) place_in_category[i] = place_in_category[i - 1] + 1;

@@ -56,7 +56,6 @@ TEST_CASE("svnet-render writes a data set, the same for any number of threads") 
   CHECK(run(folder, SVNET_RENDER " --output x --categories mugg").err ==
         "svnet-render: there is no category 'mugg', did you mean 'mug'?\n");
   CHECK_FALSE(std::filesystem::exists(folder.path() / "x"));
-  CHECK_FALSE(std::filesystem::exists(folder.path() / "x.partial"));
 }
 
 namespace {
