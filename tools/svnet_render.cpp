@@ -59,12 +59,8 @@ std::vector<Source> sources_in(const Options& options) {
     if (!options.categories.empty() &&
         std::find(options.categories.begin(), options.categories.end(), name) == options.categories.end())
       continue;
-    for (const fs::path& file : sorted_entries(category)) {
-      std::string kind = file.extension().string();
-      std::transform(kind.begin(), kind.end(), kind.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-      if (kind == ".obj" || kind == ".ply" || kind == ".stl" || kind == ".glb")
-        sources.push_back({name, file.stem().string(), 0, file});
-    }
+    for (const fs::path& file : sorted_entries(category))
+      if (is_mesh_name(file)) sources.push_back({name, file.stem().string(), 0, file});
   }
   check(!sources.empty(), options.meshes.string(),
         ": holds no meshes; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it");

@@ -1,9 +1,11 @@
 #include "io/mesh_file.h"
 
+#include <algorithm>
 #include <assimp/Importer.hpp>
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include <assimp/material.h>
 #include <assimp/postprocess.h>
@@ -12,6 +14,7 @@
 #include "base/error.h"
 #include "image_codecs.h"
 #include "io/image_file.h"
+#include "ply_check.h"
 #include "printable.h"
 
 namespace svnet {
@@ -53,20 +56,19 @@ Material material_of(const aiScene& scene, const aiMaterial& from, const fs::pat
   return material;
 }
 
-/// Assimp makes room for all that a PLY header promises, for minutes where that is nonsense.
-void check_ply_header(const fs::path& path) {
+/// In lower case.
+std::string extension_of(const fs::path& path) {
+  std::string extension = path.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
+  return extension;
+}
+
+std::string file_contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
-  std::string line;
-  if (!std::getline(file, line) || !line.starts_with("ply")) return;
-  const std::uintmax_t size = fs::file_size(path);
-  while (std::getline(file, line) && !line.starts_with("end_header")) {
-    std::istringstream words(line);
-    std::string element, name;
-    double count = 0;
-    if (words >> element >> name >> count && element == "element")
-      check(count <= static_cast<double>(size), path.string(), ": promises ", count, " of '", printable(name), "' in ",
-            size, " bytes; is the file incomplete?");
-  }
+  std::ostringstream contents;
+  contents << file.rdbuf();
+  return std::move(contents).str();
 }
 
 void check_corners(const aiScene& scene, const std::string& name) {
@@ -84,12 +86,18 @@ void check_corners(const aiScene& scene, const std::string& name) {
 
 }  // namespace
 
+bool is_mesh_name(const fs::path& path) {
+  const std::string extension = extension_of(path);
+  return extension == ".obj" || extension == ".ply" || extension == ".stl" || extension == ".glb";
+}
+
 Mesh read_mesh(const fs::path& path, double metres_per_unit) {
   constexpr std::size_t kMostTriangles = 5'000'000;
   const std::string name = path.string();
   check(std::ifstream(path, std::ios::binary).good() && !fs::is_directory(path), name,
         ": cannot be read; expected a mesh (OBJ, PLY, STL or GLB)");
-  check_ply_header(path);
+  check(is_mesh_name(path), name, ": is not named like a mesh; expected .obj, .ply, .stl or .glb");
+  if (extension_of(path) == ".ply") check_ply(name, file_contents(path));
   Assimp::Importer importer;
   importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   // One step after the other: Debian's Assimp aborts where it has to triangulate faces of fewer than three corners, and

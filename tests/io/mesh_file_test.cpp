@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <tuple>
 
@@ -176,4 +177,58 @@ TEST_CASE("damaged meshes and textures get one line that says where and what") {
     CHECK(std::all_of(message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) >= ' '; }));
     CHECK(message.size() < 400);
   }
+}
+
+namespace {
+
+std::string replaced(std::string text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+    text.replace(at, from.size(), to);
+  return text;
+}
+
+/// The triangles of kPly and a second one, packed.
+std::string packed_ply() {
+  std::string ply = replaced(replaced(kPly, "ascii", "binary_little_endian"), "face 1", "face 2");
+  ply.resize(ply.find("end_header\n") + 11);
+  ply += bytes<float>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  for (int face = 0; face < 2; ++face) ply += '\3' + bytes<std::int32_t>({0, 1, 2});
+  return ply;
+}
+
+}  // namespace
+
+TEST_CASE("a PLY file that is cut off is refused where it ends") {
+  const TemporaryFolder folder;
+  const std::string text = replaced(std::string(kPly) + "3 2 1 0\n", "face 1", "face 2"), packed = packed_ply();
+  const std::string path = (folder.path() / "a.ply").string();
+  const auto refusal_of = [&](const std::string& contents) { return refusal(folder.write("a.ply", contents)); };
+  const std::string vertices = path + ": holds 2 of 3 elements 'vertex'; is the file incomplete?",
+                    faces = path + ": holds 1 of 2 elements 'face'; is the file incomplete?",
+                    header = path + ": the header has no end_header; is the file cut off?",
+                    promise = path + ": promises 400000000 of 'face' in ";
+  for (const char* line_end : {"\n", "\r\n"}) {
+    const std::string whole = replaced(text, "\n", line_end);
+    CHECK(refusal_of(whole) == "read");
+    CHECK(refusal_of(whole.substr(0, whole.rfind("0 1 0"))) == vertices);
+    CHECK(refusal_of(whole.substr(0, whole.rfind("3 2 1 0"))) == faces);
+    CHECK(refusal_of(whole.substr(0, whole.rfind("1 0"))) == faces);
+    CHECK(refusal_of(whole.substr(0, whole.rfind("end_header"))) == header);
+    CHECK(refusal_of(replaced(whole, "end_header", "end_headers")) == header);
+    CHECK_THAT(refusal_of(replaced(whole, "face 2", "face 400000000")), Catch::StartsWith(promise));
+  }
+  for (const std::string& line_end : {std::string("\r"), std::string("\n\r"), std::string("\f"), std::string(1, '\0')})
+    CHECK(refusal_of(replaced(text, "\n", line_end)) ==
+          path + ": the header holds a control character; do its lines end with LF or CR LF?");
+  CHECK(refusal_of(packed) == "read");
+  CHECK(refusal_of(packed.substr(0, packed.size() - 1)) == faces);
+  CHECK(refusal_of(packed.substr(0, packed.size() - 13 - 13 - 1)) == vertices);
+  CHECK(refusal_of(replaced(packed, std::string(1, '\3'), "\xff")) ==
+        path + ": holds 0 of 2 elements 'face'; is the file incomplete?");
+}
+
+TEST_CASE("a PLY file of polygons has more triangles than faces") {
+  const TemporaryFolder folder;
+  const std::string ply = replaced(replaced(kPly, "vertex 3", "vertex 4"), "3 0 1 2", "1 1 0\n4 0 1 3 2");
+  CHECK(read_mesh(folder.write("a.ply", ply)).triangles.size() == 2);
 }
