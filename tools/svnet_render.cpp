@@ -12,7 +12,7 @@
 #include "io/depth_file.h"
 #include "io/fresh_folder.h"
 #include "io/image_file.h"
-#include "io/mesh_file.h"
+#include "render/sources.h"
 #include "view/render/catalogue.h"
 #include "view/render/collection.h"
 #include "view/render/contact_sheet.h"
@@ -30,54 +30,6 @@ struct Options {
   std::uint64_t seed = 1;
   double metres_per_unit = 1;
 };
-
-/// One object to collect: a design of the catalogue, or a mesh file.
-struct Source {
-  std::string category, object;
-  Index design = 0;
-  fs::path file;
-};
-
-std::vector<fs::path> sorted_entries(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> entries;
-  for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error))
-    if (!entry->path().filename().string().starts_with('.')) entries.push_back(entry->path());
-  check(!error, folder.string(), ": cannot be read: ", error.message());
-  std::sort(entries.begin(), entries.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().string(), b.filename().string());
-  });
-  return entries;
-}
-
-/// FOLDER/CATEGORY/NAME.obj (or .ply, .stl, .glb): each mesh is an object named like its file.
-std::vector<Source> sources_in(const Options& options) {
-  std::vector<Source> sources;
-  for (const fs::path& category : sorted_entries(options.meshes)) {
-    if (!fs::is_directory(category)) continue;
-    const std::string name = category.filename().string();
-    if (!options.categories.empty() &&
-        std::find(options.categories.begin(), options.categories.end(), name) == options.categories.end())
-      continue;
-    for (const fs::path& file : sorted_entries(category))
-      if (is_mesh_name(file)) sources.push_back({name, file.stem().string(), 0, file});
-  }
-  check(!sources.empty(), options.meshes.string(),
-        ": holds no meshes; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it");
-  return sources;
-}
-
-std::vector<Source> sources_of_catalogue(const Options& options) {
-  const auto& names = catalogue_names();
-  for (const std::string& category : options.categories)
-    check(std::find(names.begin(), names.end(), category) != names.end(), "there is no category '", category, "'",
-          suggestion(category, names));
-  std::vector<Source> sources;
-  for (const std::string& name : options.categories.empty() ? names : options.categories)
-    for (Index object = 0; object < options.objects; ++object)
-      sources.push_back({name, std::to_string(object + 1), object, {}});
-  return sources;
-}
 
 void write_text(const fs::path& path, const std::string& text) {
   std::ofstream file(path, std::ios::binary);
@@ -184,13 +136,25 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
           {}};
 }
 
+/// Reads all meshes once: what is wrong with one of them is found before the work.
+void check_meshes(const std::vector<Source>& sources, const Options& options) {
+  if (options.meshes.empty()) return;
+  Parallel::shared().for_chunks(static_cast<Index>(sources.size()), 1, [&](Index i, Index, int) {
+    mesh_of(sources[static_cast<std::size_t>(i)], options.metres_per_unit, options.seed);
+  });
+}
+
 void render(const Options& options, Console& console) {
   constexpr Index kSheetPictures = 15;  // of each category, so that the sheet fits a screen's width
   constexpr Index kSheetCell_px = 96;
-  const std::vector<Source> sources = options.meshes.empty() ? sources_of_catalogue(options) : sources_in(options);
+  const std::vector<Source> sources =
+      options.meshes.empty()
+          ? catalogue_sources(options.categories, options.objects)
+          : mesh_sources(options.meshes, options.categories, [&](const std::string& line) { console.line(line); });
   const auto total = static_cast<Index>(sources.size()) * options.poses;
   check(total < 0x10000, "there are ", total, " objects and poses, more than 65535; take fewer");
   FreshFolder folder(options.output);
+  check_meshes(sources, options);
   std::vector<Index> place_in_category(sources.size(), 0);
   for (std::size_t i = 1; i < sources.size(); ++i)
     if (sources[i].category == sources[i - 1].category) place_in_category[i] = place_in_category[i - 1] + 1;
@@ -209,8 +173,7 @@ void render(const Options& options, Console& console) {
       const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
       const fs::path where = place_of(number);
       try {
-        const Mesh mesh = source.file.empty() ? catalogue_object(source.category, source.design, options.seed)
-                                              : read_mesh(source.file, options.metres_per_unit);
+        const Mesh mesh = mesh_of(source, options.metres_per_unit, options.seed);
         Entry& entry = entries[static_cast<std::size_t>(number)];
         entry = collect(mesh, pose, options, static_cast<std::uint32_t>(number), folder.path() / where,
                         folder.path() / "_extra" / where);
@@ -285,7 +248,8 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)");
   auto* meshes = app.add_option("--meshes", options.meshes,
                                 "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb)");
-  app.add_option("--unit", options.metres_per_unit, "Metres per unit of the meshes (1)")
+  app.add_option("--unit", options.metres_per_unit,
+                 "Metres per unit of the meshes (1); objects may be 1 mm to 1 m long")
       ->check(CLI::PositiveNumber)
       ->needs(meshes);
   return command.run(argc, argv, [&](Console& console) { render(options, console); });

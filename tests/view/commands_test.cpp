@@ -110,6 +110,44 @@ TEST_CASE("svnet-render takes meshes of one's own") {
   CHECK_THAT(run(folder, SVNET_RENDER " --quiet --output e --meshes none").err, Catch::Contains("none: "));
 }
 
+TEST_CASE("svnet-render says which objects it cannot take") {
+  const TemporaryFolder folder;
+  folder.write("meshes/box/brick.obj", box(80, 60, 50));
+  folder.write("meshes/textures/wood.txt", "");
+  folder.write("meshes/_old/brick.obj", "");
+  folder.write("meshes/box/._brick.obj", "");
+  const std::string options = SVNET_RENDER " --poses 1 --size 32 --output d --meshes meshes --unit ";
+  const auto error_of = [&](const std::string& arguments) {
+    const Ran ran = run(folder, options + arguments);
+    CHECK(ran.status == 1);
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "d"));
+    return ran.err;
+  };
+  CHECK(run(folder, SVNET_RENDER " --output d --categories mug,key,mug").err ==
+        "svnet-render: the category 'mug' is given twice\n");
+  CHECK_THAT(error_of("0.001 --categories box,boxes"),
+             Catch::EndsWith("svnet-render: there is no category 'boxes' in meshes, did you mean 'box'?\n"));
+  CHECK_THAT(
+      error_of("0.001 --categories textures"),
+      Catch::EndsWith("svnet-render: meshes/textures: holds no meshes; expected NAME.obj, .ply, .stl or .glb\n"));
+  CHECK_THAT(
+      error_of("1"),
+      Catch::EndsWith("svnet-render: meshes/box/brick.obj: is 80 m long, objects may be 1 mm to 1 m; is its unit "
+                      "right? With --unit 0.001 it would be 0.08 m.\n"));
+  CHECK_THAT(error_of("0.000001"), Catch::Contains("brick.obj: is 0.08 mm long"));
+
+  const Ran ran = run(folder, options + "0.001");
+  CHECK(ran.status == 0);
+  const std::string ignored = ": names that begin with '_' or '.' are ignored in data sets\n";
+  CHECK_THAT(ran.err, Catch::Contains("left out: meshes/_old" + ignored));
+  CHECK_THAT(ran.err, Catch::Contains("left out: meshes/box/._brick.obj" + ignored));
+  std::filesystem::remove_all(folder.path() / "d");
+
+  folder.write("meshes/box/brick.STL", "");
+  CHECK_THAT(error_of("0.001"), Catch::EndsWith("svnet-render: meshes/box/brick.STL and meshes/box/brick.obj: both are "
+                                                "the object 'brick'; rename one of them\n"));
+}
+
 TEST_CASE("svnet-views localises an object and says where to see it from") {
   const TemporaryFolder folder;
   REQUIRE(run(folder, std::string(kRender) + "--output d").status == 0);

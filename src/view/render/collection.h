@@ -25,6 +25,8 @@ PosedObject pose_object(const Mesh&, Index pose, std::uint64_t seed, std::uint32
 /// The camera of the overview: 640x480, 1 m above the table, looking down.
 Intrinsics overview_camera();
 Eigen::Isometry3d overview_camera_to_world();
+/// What it may find at all: it sees about 1 m of the table, and less than a pixel of what is smaller.
+constexpr double kSmallestObject_m = 0.001, kLargestObject_m = 1;
 /// The camera of the views: size x size with the same angle of view as the paper's.
 Intrinsics view_camera(Index size);
 
