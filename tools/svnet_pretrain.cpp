@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "command/command.h"
+#include "command/number_check.h"
 #include "io/atomic_file.h"
 #include "io/backbone_file.h"
 #include "train/pretraining.h"
@@ -52,10 +53,11 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(2, 4096));
   app.add_option("--learning-rate", options.learning_rate,
                  "The highest learning rate; it warms up and falls to 0 by half a cosine (0.002)")
-      ->check(CLI::PositiveNumber);
+      ->check(positive_number());
   app.add_option("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)")
-      ->check(CLI::NonNegativeNumber);
-  app.add_option("--seed", options.seed, "Seed of weights, order and changes of the pictures (0)");
+      ->check(non_negative_number());
+  app.add_option("--seed", options.seed, "Seed of weights, order and changes of the pictures (0)")
+      ->check(CLI::Range(Index{0}, Index{1} << 53));
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     check_can_be_written(output);

@@ -8,6 +8,7 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "command/command.h"
+#include "command/number_check.h"
 #include "io/camera_file.h"
 #include "io/depth_file.h"
 #include "io/fresh_folder.h"
@@ -245,12 +246,13 @@ int main(int argc, char** argv) {
   app.add_option("--poses", options.poses, "Poses of each object (3)")->check(CLI::Range(1, 99));
   app.add_option("--size", options.size, "Height and width of the pictures in pixels (224)")
       ->check(CLI::Range(32, 2048));
-  app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)");
+  app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
+      ->check(CLI::Range(Index{0}, Index{1} << 53));
   auto* meshes = app.add_option("--meshes", options.meshes,
                                 "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb)");
   app.add_option("--unit", options.metres_per_unit,
                  "Metres per unit of the meshes (1); objects may be 1 mm to 1 m long")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->needs(meshes);
   return command.run(argc, argv, [&](Console& console) { render(options, console); });
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "command/command.h"
+#include "command/number_check.h"
 #include "command/openblas_cap.h"
 #include "io/atomic_file.h"
 #include "io/features_file.h"
@@ -50,7 +51,7 @@ int run(int argc, char** argv, Team& team) {
   auto* error =
       command.app()
           .add_option("--target-error", config.scores.target_error, "Until every standard error is at most this")
-          ->check(CLI::Range(1e-9, 1.0));
+          ->check(number_between(1e-9, 1));
   samples->excludes(problems)->excludes(error);
   problems->excludes(error);
   command.app()
@@ -78,7 +79,7 @@ int run(int argc, char** argv, Team& team) {
   range("--max-objects", config.scores.max_objects, "Most objects of a category in a problem; 0: all");
   command.app()
       .add_option("--snapshot-seconds", snapshot_seconds, "Seconds between two snapshots of the work so far")
-      ->check(CLI::Range(0.0, 30.0))
+      ->check(number_between(0, 30))
       ->capture_default_str();
   command.app().add_flag("--resume", resume, "Go on from OUTPUT.snapshot, which is kept up to date, where it exists");
   return command.run(

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command/command.h"
+#include "command/number_check.h"
 #include "io/atomic_file.h"
 #include "io/camera_file.h"
 #include "io/depth_file.h"
@@ -175,7 +176,7 @@ int main(int argc, char** argv) {
                      ->expected(3)
                      ->type_name("X Y Z");
   auto* diagonal = app.add_option("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres")
-                       ->check(CLI::PositiveNumber);
+                       ->check(positive_number());
   centre->needs(diagonal);
   diagonal->needs(centre);
   auto* background = app.add_option("--background", options.background,

@@ -12,6 +12,7 @@
 
 #include "base/text.h"
 #include "base/version.h"
+#include "command/number_check.h"
 #include "command/progress_text.h"
 #include "shell.h"
 
@@ -86,6 +87,22 @@ TEST_CASE("every command has --help with an example, and --version") {
     CHECK(end - start <= 80);
   CHECK(run("--version").out == std::string("svnet-probe ") + kVersion + "\n");
   CHECK(run("--version").status == 0);
+}
+
+TEST_CASE("numbers out of range are refused, NaN and infinities among them") {
+  const auto problem = [](const CLI::Validator& check, std::string text) { return check(text); };
+  CHECK(problem(positive_number(), "1e-300").empty());
+  CHECK(problem(positive_number(), "0") == "0 is out of range, must be greater than 0");
+  CHECK(problem(non_negative_number(), "0").empty());
+  CHECK(problem(non_negative_number(), "-1e-9") == "-1e-9 is out of range, must be at least 0");
+  for (const char* inside : {"0.5", "30"}) CHECK(problem(number_between(0.5, 30), inside).empty());
+  for (const char* outside : {"0.49", "30.1"})
+    CHECK(problem(number_between(0.5, 30), outside) == std::string(outside) + " is out of range, must be 0.5 to 30");
+  for (const CLI::Validator& check : {positive_number(), non_negative_number(), number_between(0, 1)}) {
+    for (const char* text : {"nan", "-nan", "inf", "-inf", "1e999"}) CHECK_FALSE(problem(check, text).empty());
+    for (const char* text : {"", "one", "1x"})
+      CHECK(problem(check, text) == "'" + std::string(text) + "' is not a number");
+  }
 }
 
 TEST_CASE("wrong usage is exit 2 with a message") {

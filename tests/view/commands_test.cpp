@@ -148,6 +148,20 @@ TEST_CASE("svnet-render says which objects it cannot take") {
                                                 "the object 'brick'; rename one of them\n"));
 }
 
+TEST_CASE("svnet-render takes no number out of range") {
+  const TemporaryFolder folder;
+  for (const auto& [option, problem] :
+       {std::pair("--seed -1", "--seed: Value -1 not in range 0 to 9007199254740992"),
+        std::pair("--seed 12345678901234567890123",
+                  "--seed: Value 12345678901234567890123 not in range 0 to 9007199254740992"),
+        std::pair("--meshes m --unit 0", "--unit: 0 is out of range, must be greater than 0"),
+        std::pair("--meshes m --unit nan", "--unit: nan is out of range, must be greater than 0")}) {
+    const Ran ran = run(folder, std::string(kRender) + "--output d " + option);
+    CHECK(ran.status == 2);
+    CHECK(ran.err == "svnet-render: " + std::string(problem) + "; see svnet-render --help\n");
+  }
+}
+
 TEST_CASE("svnet-views localises an object and says where to see it from") {
   const TemporaryFolder folder;
   REQUIRE(run(folder, std::string(kRender) + "--output d").status == 0);
@@ -186,6 +200,7 @@ TEST_CASE("svnet-views says what is wrong") {
   folder.write("reach.csv", "theta,phi\n270,10\n");
   CHECK(run(folder, SVNET_VIEWS " camera.json").status == 2);
   CHECK(run(folder, SVNET_VIEWS " camera.json --centre 1 2 3").status == 2);
+  CHECK(run(folder, SVNET_VIEWS " camera.json --centre 1 2 3 --diagonal nan").status == 2);
   CHECK(run(folder, SVNET_VIEWS " camera.json --centre 1 2 3 --diagonal 0.5 --reachable reach.csv").err ==
         "svnet-views: reach.csv: none of the 22 poses is reachable\n");
   CHECK_THAT(run(folder, SVNET_VIEWS " none.json --centre 1 2 3 --diagonal 0.5").err,
