@@ -11,6 +11,8 @@
 namespace svnet {
 namespace {
 
+constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin UTF-8 with it
+
 std::string_view trimmed(std::string_view text) {
   constexpr std::string_view kBlank = " \t\r";
   const auto first = text.find_first_not_of(kBlank);
@@ -32,7 +34,9 @@ std::vector<Pose> read_pose_list(const std::filesystem::path& path) {
   bool header_seen = false;
   std::string line;
   for (long number = 1; std::getline(file, line); ++number) {
-    const std::string_view text = trimmed(line);
+    std::string_view text = line;
+    if (number == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+    text = trimmed(text);
     if (text.empty()) continue;
     const auto comma = text.find(',');
     const std::string_view first = trimmed(text.substr(0, comma)),

@@ -13,6 +13,14 @@ TEST_CASE("poses are read from CSV") {
   CHECK(read_pose_list(path) == std::vector<Pose>{{0, 45}, {-22.5, 60}, {720, 90}});
 }
 
+TEST_CASE("a pose list may begin with a byte order mark") {
+  const TemporaryFolder folder;
+  CHECK(read_pose_list(folder.write("poses.csv", "\xef\xbb\xbftheta,phi\r\n0,45\r\n")) == std::vector<Pose>{{0, 45}});
+  CHECK_THROWS(read_pose_list(folder.write("poses.csv",
+                                           "theta,phi\n\xef\xbb\xbf"
+                                           "0,45\n")));
+}
+
 TEST_CASE("a pose list that is none is refused with file and line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) {
