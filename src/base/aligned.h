@@ -2,10 +2,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <memory>
-#include <new>
 
 #include <sys/mman.h>
 
+#include "base/error.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -38,8 +38,9 @@ using AlignedFloats = std::unique_ptr<float[], FreeAligned>;
 
 /// Memory for `count` numbers, so that a kernel may read one vector past the end. Not initialised.
 inline AlignedFloats aligned_floats(Index count) {
-  auto* p = static_cast<float*>(aligned_memory(static_cast<std::size_t>(count) * sizeof(float)));
-  if (p == nullptr) throw std::bad_alloc();
+  const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);
+  auto* p = static_cast<float*>(aligned_memory(bytes));
+  if (p == nullptr) throw NoMemory(bytes);
   return AlignedFloats(p);
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <new>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -9,6 +10,16 @@ namespace svnet {
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
+};
+
+/// More memory was asked for than there is. Interfaces know it as std::bad_alloc; it says how much.
+class NoMemory : public std::bad_alloc {
+ public:
+  explicit NoMemory(std::size_t bytes) : text_("no memory for " + std::to_string(bytes >> 20) + " MiB") {}
+  const char* what() const noexcept override { return text_.c_str(); }
+
+ private:
+  std::string text_;
 };
 
 /// The parts written one after the other.

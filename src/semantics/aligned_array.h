@@ -20,7 +20,7 @@ class AlignedArray {
   explicit AlignedArray(std::size_t size = 0, Contents contents = Contents::zero) {
     const std::size_t bytes = size * sizeof(T);
     values_.reset(static_cast<T*>(aligned_memory(bytes)));
-    check(values_ != nullptr, "no memory for ", bytes >> 20, " MiB");
+    if (values_ == nullptr) throw NoMemory(bytes);
     // The vector behind the end too, which kernels may read.
     if (contents == Contents::zero) std::fill_n(values_.get(), size + kAlignment / sizeof(T), T{});
   }

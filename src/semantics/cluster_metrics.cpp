@@ -65,7 +65,8 @@ void Contingency::count(std::span<const std::int32_t> truth, std::span<const std
   n_ = static_cast<Index>(truth.size());
   check(truth.size() == predicted.size(), "[cluster metrics] ", truth.size(), " true labels for ", predicted.size(),
         " predicted ones");
-  check(n_ >= 1 && n_ <= max_items_, "[cluster metrics] ", n_, " items where 1 to ", max_items_, " are allowed");
+  check(n_ >= 1, "[cluster metrics] there are no labels; one item at least is needed");
+  check(n_ <= max_items_, "[cluster metrics] ", n_, " items where ", max_items_, " at most are allowed");
   classes_ = count_labels(truth, max_items_, class_size_);
   clusters_ = count_labels(predicted, max_items_, cluster_size_);
 
@@ -130,7 +131,7 @@ double Contingency::normalized_mutual_info(NmiAverage average) const {
   }
   const double truth = entropy(class_sizes, n), prediction = entropy(cluster_sizes, n);
   const double mean = average == NmiAverage::arithmetic ? (truth + prediction) / 2 : std::sqrt(truth * prediction);
-  return std::max(0.0, information) / mean;
+  return std::clamp(information / mean, 0.0, 1.0);
 }
 
 double Contingency::purity() const {

@@ -15,6 +15,8 @@ constexpr Index kTile = kProductTile, kDepth = kProductDepth;
 constexpr double kNearlyEqual = 1e-6;
 /// Leaves room in a float32 for the sums of many distances.
 constexpr double kLargest = 1e30;
+/// Of the squared distances from the mean: leaves room for what is 10^8 times smaller.
+constexpr double kSmallestSpread = 1e-30;
 
 template <class T>
 void check_finite(const T* features, Index n, Index dimension, Parallel& parallel) {
@@ -104,6 +106,13 @@ void distance_tile(const CentredFeatures<T>& x, Index i0, Index j0, TileScratch&
       for (Index row = i; row < std::min({i + 16, i1, j}); ++row) distances.row(j)[row] = distances.row(row)[j];
 }
 
+template <class T>
+bool all_rows_equal(const T* features, Index n, Index dimension) {
+  for (Index i = 1; i < n; ++i)
+    if (!std::equal(features, features + dimension, features + i * dimension)) return false;
+  return true;
+}
+
 }  // namespace
 
 DistanceMatrix::DistanceMatrix(Index n)
@@ -123,6 +132,10 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
         x.squared_norm[i] += centred * centred;
       }
   });
+  // Rows that are equal may still be a rounding away from their mean.
+  const double spread = *std::max_element(x.squared_norm.begin(), x.squared_norm.end());
+  check(spread >= kSmallestSpread || all_rows_equal(features, n, dimension), "[distances] no row is farther than ",
+        std::sqrt(spread), " from the mean, too little for float32; scale the features up");
 
   DistanceMatrix distances(n);
   struct Tile {

@@ -125,9 +125,14 @@ TEST_CASE("counting and scoring allocate nothing, and a contingency can be used 
   }
 }
 
+TEST_CASE("normalized mutual information is never above 1") {
+  CHECK(normalized_mutual_info(Values{0, 0, 0, 1, 1}, Values{0, 0, 0, 1, 1}) == 1);
+  CHECK(normalized_mutual_info(Values{0, 0, 0, 1, 1}, Values{7, 7, 7, 2, 2}, NmiAverage::geometric) <= 1);
+}
+
 TEST_CASE("metrics refuse labels that do not match") {
   CHECK_THROWS_WITH(fowlkes_mallows(Values{1, 2}, Values{1}), "[cluster metrics] 2 true labels for 1 predicted ones");
-  CHECK_THROWS_WITH(purity(Values{}, Values{}), "[cluster metrics] 0 items where 1 to 0 are allowed");
+  CHECK_THROWS_WITH(purity(Values{}, Values{}), "[cluster metrics] there are no labels; one item at least is needed");
   Contingency contingency(3);
   const std::vector<std::int32_t> good{0, 1, 2}, low{0, -1, 2}, high{0, 1, 3};
   CHECK_THROWS_WITH(contingency.count(low, good), "[cluster metrics] labels from -1 to 2 where 0 to 2 are allowed");

@@ -103,3 +103,11 @@ TEST_CASE("squared distances name the row that is to blame") {
                     "[distances] features are 0x4; at least 1x1 is needed");
   CHECK_THROWS_WITH(DistanceMatrix(-1), "[distances] -1 rows");
 }
+
+TEST_CASE("features that float32 cannot tell apart when squared are refused, equal ones are not") {
+  const auto tiny = [](float x) { return std::vector<float>{0, 0, x, 0, 10 * x, 0}; };
+  CHECK_THAT(distances_of(tiny(1e-14f), 2)(2, 1), Catch::WithinRel(8.1e-27f, 1e-5f));
+  CHECK_THROWS_WITH(distances_of(tiny(1e-20f), 2), Catch::StartsWith("[distances] no row is farther than ") &&
+                                                       Catch::EndsWith("scale the features up"));
+  CHECK(distances_of(std::vector<float>(300, 0.1f), 3)(99, 0) == 0);
+}

@@ -76,6 +76,8 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     return report(console, "interrupted", 130, team);
   } catch (const UsageError& e) {
     return report(console, usage_text(e.what()), 2, team);
+  } catch (const NoMemory& e) {
+    return report(console, e.what(), 1, team);
   } catch (const std::bad_alloc&) {
     return report(console, "out of memory", 1, team);
   } catch (const std::exception& e) {
