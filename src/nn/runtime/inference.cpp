@@ -39,13 +39,11 @@ Index samples_together(const runtime::Program& program, const runtime::MemoryPla
 class Inference::Loan {
  public:
   Loan(const Inference& from, Index size) : from_(from) {
-    {
-      std::lock_guard lock(from_.mutex_);
-      if (!from_.free_.empty()) {
-        arena_ = std::move(from_.free_.back());
-        from_.free_.pop_back();
+    for (auto& place : from_.free_)
+      if (Arena* const kept = place.exchange(nullptr)) {
+        arena_.reset(kept);
+        break;
       }
-    }
     if (!arena_) {
       arena_ = std::make_unique<Arena>();
       std::size_t most = 1;
@@ -61,11 +59,12 @@ class Inference::Loan {
     }
   }
   ~Loan() {
-    std::lock_guard lock(from_.mutex_);
-    try {
-      from_.free_.push_back(std::move(arena_));
-    } catch (const std::bad_alloc&) {
-      // The arena is freed instead of kept.
+    for (auto& place : from_.free_) {
+      Arena* none = nullptr;
+      if (place.compare_exchange_strong(none, arena_.get())) {
+        arena_.release();
+        return;
+      }
     }
   }
   Loan(const Loan&) = delete;
@@ -87,6 +86,10 @@ Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId ou
       program_(runtime::compile(graph, parameters, output, convolution, precision)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}
+
+Inference::~Inference() {
+  for (auto& place : free_) delete place.load();
+}
 
 Index Inference::arena_size(Index batch) const {
   batch = std::min(batch, group_);

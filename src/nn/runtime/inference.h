@@ -1,6 +1,7 @@
 #pragma once
+#include <array>
+#include <atomic>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <vector>
 
@@ -21,15 +22,19 @@ struct StepReport {
 
 /// A graph compiled for inference, f32 in and out: kernels chosen, batch norms and activations fused, weights laid out
 /// for the kernels, memory planned. It keeps no reference to graph and parameters. Safe to share between threads: each
-/// run borrows an arena, and nothing is allocated once there are as many as runs at once. The same bits for any number
-/// of threads; a sample's result does not depend on the others of its batch. A batch goes through all steps in groups
-/// of samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
+/// run borrows an arena, and nothing is allocated once there are as many as runs at once, up to 64. The same bits for
+/// any number of threads; a sample's result does not depend on the others of its batch. A batch goes through all steps
+/// in groups of samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
 class Inference {
  public:
   /// With the kernels and the precision that the environment asks for. Throws Error for parameters that are not f32.
   Inference(const Graph& graph, const Parameters& parameters, NodeId output);
   Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
             runtime::Precision precision = runtime::Precision::f32);
+
+  ~Inference();
+  Inference(const Inference&) = delete;
+  Inference& operator=(const Inference&) = delete;
 
   const std::vector<Shape>& input_shapes() const { return program_.inputs; }  ///< without the batch
   const Shape& output_shape() const { return program_.output_shape; }         ///< without the batch
@@ -47,6 +52,7 @@ class Inference {
   std::vector<StepReport> report(Index batch) const;
 
  private:
+  static constexpr std::size_t kKeptArenas = 64;
   struct Arena {
     AlignedFloats memory{};
     Index size = 0;
@@ -61,8 +67,8 @@ class Inference {
   runtime::Program program_;
   runtime::MemoryPlan memory_;
   Index group_;
-  mutable std::mutex mutex_{};
-  mutable std::vector<std::unique_ptr<Arena>> free_{};
+  // Without a lock, which fork() would copy while another thread holds it.
+  mutable std::array<std::atomic<Arena*>, kKeptArenas> free_{};
 };
 
 }  // namespace svnet
