@@ -1,6 +1,7 @@
 #include "models/backbone.h"
 
 #include <algorithm>
+#include <memory>
 #include <optional>
 
 #include <pybind11/stl.h>
@@ -56,22 +57,33 @@ Raises svnet.Error for another dtype or shape.
 struct LoadedBackbone {
   Backbone backbone;
   std::vector<std::string> unused_layers;
+
+  /// What pybind11 calls for the `self` of an instance whose __init__ has not been called, or has failed: methods would
+  /// get memory that holds no backbone. Hence made_of calls ::new.
+  static void* operator new(std::size_t) {
+    throw py::type_error("svnet.Backbone has no network yet; call svnet.Backbone(name, ...)");
+  }
+  static void operator delete(void* memory) { ::operator delete(memory); }
 };
 
-LoadedBackbone load(const std::string& name, const py::object& given_weights, const std::optional<std::string>& layer,
-                    const py::object& given_seed) {
+std::unique_ptr<LoadedBackbone> made_of(Backbone backbone, std::vector<std::string> unused_layers) {
+  return std::unique_ptr<LoadedBackbone>(::new LoadedBackbone{std::move(backbone), std::move(unused_layers)});
+}
+
+std::unique_ptr<LoadedBackbone> load(const std::string& name, const py::object& given_weights,
+                                     const std::optional<std::string>& layer, const py::object& given_seed) {
   const std::uint64_t seed = whole_number("Backbone", "seed", given_seed);
   const std::string output = layer.value_or("");
   if (given_weights.is_none()) {
     const Computing computing;
-    if (auto built_in = built_in_backbone(name, output)) return {std::move(built_in->backbone), {}};
-    return {random_backbone(name, output, seed), {}};
+    if (auto built_in = built_in_backbone(name, output)) return made_of(std::move(built_in->backbone), {});
+    return made_of(random_backbone(name, output, seed), {});
   }
   const std::string weights = path("Backbone", "weights", given_weights);
   const Computing computing;
   KerasLoadReport report;
   Backbone backbone = read_backbone(name, weights, output, &report);
-  return {std::move(backbone), std::move(report.unused)};
+  return made_of(std::move(backbone), std::move(report.unused));
 }
 
 Tensor preprocessed(const Preprocessing& how, const std::uint8_t* rgb, Index images) {

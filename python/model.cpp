@@ -90,10 +90,19 @@ py::tuple best_view_of(const Predictor& self, const py::object& image, const py:
   return py::make_tuple(best_view(values), array_of(std::span<const float>(values)));
 }
 
+/// Model has no __init__. Its __new__ refuses too: pybind11's would leave an instance without a Predictor, and hand
+/// methods memory that holds none.
+void refuse_new(PyHeapTypeObject* type) {
+  type->ht_type.tp_new = [](PyTypeObject*, PyObject*, PyObject*) -> PyObject* {
+    PyErr_SetString(PyExc_TypeError, "svnet.Model is made by svnet.Model.load(path)");
+    return nullptr;
+  };
+}
+
 }  // namespace
 
 void bind_model(py::module_& module) {
-  py::class_<Predictor>(module, "Model", kClassDoc)
+  py::class_<Predictor>(module, "Model", kClassDoc, py::custom_type_setup(refuse_new))
       .def_static("load", load, kLoadDoc, py::arg("path"))
       .def("score", score, kScoreDoc, py::arg("image"), py::arg("angles_deg"))
       .def("best_view", best_view_of, kBestViewDoc, py::arg("image"), py::arg("angles_deg"))

@@ -114,3 +114,25 @@ def test_tiny_xception_has_its_weights_built_in():
     assert given.unused_layers == []
     with pytest.raises(svnet.Error, match="holds weights of tiny_xception, expected weights of mobilenet"):
         svnet.Backbone("mobilenet", weights=file)
+
+
+def test_a_backbone_without_network_is_refused(images):
+    class Early(svnet.Backbone):
+        def __init__(self):
+            self.dimension
+
+    empty = svnet.Backbone.__new__(svnet.Backbone)
+    failed = svnet.Backbone.__new__(svnet.Backbone)
+    with pytest.raises(svnet.Error):
+        failed.__init__("no network")
+    for use in (
+        lambda: empty.dimension,
+        lambda: empty.features(images),
+        lambda: repr(empty),
+        lambda: failed.input_shape,
+        lambda: Early(),
+    ):
+        with pytest.raises(TypeError, match="no network yet"):
+            use()
+    empty.__init__("vgg16", layer="block1_pool")
+    assert empty.layer == "block1_pool"

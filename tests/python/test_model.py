@@ -146,8 +146,15 @@ def test_files_that_are_refused(path, tmp_path):
 
 
 def test_a_model_is_made_by_load_only():
-    with pytest.raises(TypeError):
-        svnet.Model()
+    class Derived(svnet.Model):
+        pass
+
+    for make in (svnet.Model, Derived, lambda: svnet.Model.__new__(svnet.Model), lambda: Derived.__new__(Derived)):
+        with pytest.raises(TypeError, match="svnet.Model.load"):
+            make()
+    for base in (object, svnet.Model.__base__):
+        with pytest.raises(TypeError):
+            base.__new__(svnet.Model)
 
 
 def test_a_model_outlives_its_file(path, tmp_path, image, expected):
