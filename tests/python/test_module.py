@@ -1,6 +1,9 @@
 import inspect
 import os
 import re
+import subprocess
+import sys
+import textwrap
 import threading
 
 import pytest
@@ -72,3 +75,58 @@ def test_forked_processes_compute(random, threads):
         threads(3)
         os._exit(0 if (svnet.ward(features, 5) == expected).all() else 1)
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+
+
+def run(script):
+    """Runs the script in a Python of its own, with numpy as np, svnet, os, signal and threading."""
+    header = "import os, signal, threading\nimport numpy as np\nimport svnet\n"
+    subprocess.run([sys.executable, "-c", header + textwrap.dedent(script)], check=True, timeout=60)
+
+
+def test_a_signal_handler_may_compute_but_not_change_the_number_of_threads():
+    run(
+        """
+        features = np.random.default_rng(1).normal(size=(60, 4))
+        groups = np.arange(60)
+
+        class Stop(Exception):
+            pass
+
+        def handler(*_):
+            svnet.ward(features, 5)
+            try:
+                svnet.set_threads(1)
+            except svnet.Error as error:
+                assert "while a computation is interrupted" in str(error)
+                raise Stop
+
+        signal.signal(signal.SIGALRM, handler)
+        signal.setitimer(signal.ITIMER_REAL, 0.2)
+        try:
+            svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=10**12)
+            assert False
+        except Stop:
+            pass
+        svnet.set_threads(2)
+        """
+    )
+
+
+def test_a_process_forked_while_others_compute_may_change_the_number_of_threads():
+    run(
+        """
+        features = np.random.default_rng(1).normal(size=(60, 4))
+        groups = np.arange(60)
+        scores = lambda: svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=10**12)
+        threading.Thread(target=scores, daemon=True).start()
+        expected = svnet.ward(features, 5)
+        for _ in range(20):
+            child = os.fork()
+            if child == 0:
+                signal.alarm(10)
+                svnet.set_threads(3)
+                os._exit(0 if (svnet.ward(features, 5) == expected).all() else 1)
+            assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
+        os._exit(0)
+        """
+    )
