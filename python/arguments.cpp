@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <type_traits>
 
 #include "base/error.h"
 
@@ -10,11 +12,24 @@ namespace {
 
 namespace py = pybind11;
 
+/// What `convert` returns, or nothing where Python says that the value does not fit. Whatever else is raised, such as
+/// KeyboardInterrupt by an object's __array__, is not about the value and goes on to the caller.
+template <class Convert>
+std::optional<std::invoke_result_t<Convert>> if_it_fits(const Convert& convert) {
+  try {
+    return convert();
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_TypeError) && !error.matches(PyExc_ValueError) && !error.matches(PyExc_OverflowError))
+      throw;
+    return std::nullopt;
+  }
+}
+
 /// The given as an array of any dtype, strides and byte order.
 py::array any_array(const char* function, const char* argument, const py::object& given, const char* expected) {
-  py::array array = py::array::ensure(given);  // clears Python's error where it fails: rows of unequal length
-  check(static_cast<bool>(array), "[", function, "] ", argument, " is not an array; expects ", expected);
-  return array;
+  const auto array = if_it_fits([&] { return py::array(given); });  // not rows of unequal length
+  check(array.has_value(), "[", function, "] ", argument, " is not an array; expects ", expected);
+  return *array;
 }
 
 std::string shape_text(const py::array& array) {
@@ -45,10 +60,19 @@ void check_pixels(const char* function, const char* subject, const py::array& ar
 /// Whether every value of the dtype is a float32.
 bool fits_float(const py::array& array) { return array.itemsize() <= (is_integer(array) ? 2 : 4); }
 
+/// UTF-8, with lone surrogates written as \udcff.
+std::string utf8(const py::str& text) {
+  PyObject* bytes = PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace");
+  if (bytes == nullptr) throw py::error_already_set();
+  return py::reinterpret_steal<py::bytes>(bytes);
+}
+
 std::string repr(const py::object& given) {
-  std::string text = py::repr(given);
-  constexpr std::size_t kLongest = 60;
-  return text.size() <= kLongest ? text : text.substr(0, kLongest) + "...";
+  constexpr py::ssize_t kLongest = 60;
+  const auto text = if_it_fits([&] { return py::repr(given); });  // not an int of more than 4300 digits
+  if (!text) return joined("<unprintable ", Py_TYPE(given.ptr())->tp_name, " object>");
+  if (py::len(*text) <= kLongest) return utf8(*text);
+  return utf8((*text)[py::slice(0, kLongest, 1)]) + "...";
 }
 
 }  // namespace
@@ -140,21 +164,16 @@ std::array<double, 3> point(const char* function, const char* argument, const py
 }
 
 std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
-  const auto refuse = [&] [[noreturn]] (const char* upper) {
-    fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to ", upper);
-  };
-  const auto integer = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
-  if (!integer) {
-    PyErr_Clear();
-    refuse("2^64 - 1");
-  }
-  const std::uint64_t value = PyLong_AsUnsignedLongLong(integer.ptr());
-  if (PyErr_Occurred() != nullptr) {
-    PyErr_Clear();
-    refuse("2^64 - 1");
-  }
-  if (value < lowest) refuse("2^64 - 1");
-  return value;
+  const auto value = if_it_fits([&]() -> std::uint64_t {
+    const auto integer = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
+    if (!integer) throw py::error_already_set();
+    const std::uint64_t number = PyLong_AsUnsignedLongLong(integer.ptr());
+    if (PyErr_Occurred() != nullptr) throw py::error_already_set();
+    return number;
+  });
+  if (!value || *value < lowest)
+    fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to 2^64 - 1");
+  return *value;
 }
 
 Index count_of(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
@@ -165,12 +184,13 @@ Index count_of(const char* function, const char* argument, const py::object& giv
 }
 
 std::string path(const char* function, const char* argument, const py::object& given) {
-  PyObject* encoded = nullptr;
-  if (PyUnicode_FSConverter(given.ptr(), &encoded) == 0) {
-    PyErr_Clear();
-    fail("[", function, "] ", argument, " is ", repr(given), "; expects a path");
-  }
-  return py::reinterpret_steal<py::bytes>(encoded);
+  const auto encoded = if_it_fits([&]() -> std::string {
+    PyObject* bytes = nullptr;
+    if (PyUnicode_FSConverter(given.ptr(), &bytes) == 0) throw py::error_already_set();
+    return py::reinterpret_steal<py::bytes>(bytes);
+  });
+  if (!encoded) fail("[", function, "] ", argument, " is ", repr(given), "; expects a path");
+  return *encoded;
 }
 
 py::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels) {

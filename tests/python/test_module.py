@@ -77,6 +77,44 @@ def test_forked_processes_compute(random, threads):
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 
+class Raising:
+    """Raises the exception whatever it is asked for."""
+
+    def __init__(self, exception):
+        self.exception = exception
+
+    def refuse(self, *_, **__):
+        raise self.exception
+
+    __array__ = __index__ = __fspath__ = refuse
+
+
+@pytest.mark.parametrize(
+    "use",
+    [
+        lambda given: svnet.ward(given, 1),
+        lambda given: svnet.purity(given, [1]),
+        lambda given: svnet.ward([[1.0]], given),
+        svnet.set_threads,
+        svnet.Model.load,
+    ],
+)
+def test_only_what_says_that_a_value_does_not_fit_becomes_an_error(use):
+    for kind in (TypeError, ValueError, OverflowError, UnicodeError):
+        with pytest.raises(svnet.Error, match="expects"):
+            use(Raising(kind("from the caller")))
+    for kind in (KeyboardInterrupt, SystemExit, MemoryError, RuntimeError, ZeroDivisionError):
+        with pytest.raises(kind, match="from the caller"):
+            use(Raising(kind("from the caller")))
+
+
+def test_values_in_messages_are_short():
+    with pytest.raises(svnet.Error, match=r"^\[set_threads\] n is '(é){59}\.\.\.; expects"):
+        svnet.set_threads("é" * 1000)
+    with pytest.raises(svnet.Error, match=r"^\[set_threads\] n is <unprintable int object>; expects"):
+        svnet.set_threads(1 << 100000)
+
+
 def run(script):
     """Runs the script in a Python of its own, with numpy as np, svnet, os, signal and threading."""
     header = "import os, signal, threading\nimport numpy as np\nimport svnet\n"
