@@ -183,6 +183,11 @@ Index count_of(const char* function, const char* argument, const py::object& giv
   return static_cast<Index>(value);
 }
 
+std::string text(const char* function, const char* argument, const py::object& given, const char* expected) {
+  check(py::isinstance<py::str>(given), "[", function, "] ", argument, " is no str; expects ", expected);
+  return utf8(given);
+}
+
 std::string path(const char* function, const char* argument, const py::object& given) {
   const auto encoded = if_it_fits([&]() -> std::string {
     PyObject* bytes = nullptr;

@@ -70,6 +70,9 @@ std::uint64_t whole_number(const char* function, const char* argument, const pyb
 /// The same in [lowest, 2^63).
 Index count_of(const char* function, const char* argument, const pybind11::object& given, std::uint64_t lowest = 1);
 
+/// A str, as UTF-8; lone surrogates are written as \udcff. Throws Error for anything else.
+std::string text(const char* function, const char* argument, const pybind11::object& given, const char* expected);
+
 /// A path given as str, bytes or os.PathLike. Throws Error for anything else.
 std::string path(const char* function, const char* argument, const pybind11::object& given);
 

@@ -1,4 +1,8 @@
+#include <exception>
 #include <limits>
+#include <utility>
+
+#include <pybind11/gil_safe_call_once.h>
 
 #include "arguments.h"
 #include "base/cpu.h"
@@ -20,6 +24,30 @@ Computes with n threads from now on, 1 to 1024; waits for computations that run.
 bit. The default is SVNET_THREADS, else the number of CPUs that the process may use. Raises svnet.Error.
 )";
 
+/// What is not UTF-8 in a message, such as the bytes of a path, is written as \xff.
+void raise_error(const py::object& type, const std::string& message) {
+  const auto size = static_cast<py::ssize_t>(message.size());
+  const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(message.data(), size, "backslashreplace"));
+  if (text) PyErr_SetObject(type.ptr(), text.ptr());
+}
+
+/// svnet.Error, which svnet::Error becomes from now on.
+void bind_error(py::module_& module) {
+  PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> storage;
+  const py::object& type =
+      storage.call_once_and_store_result([&] { return py::exception<svnet::Error>(module, "Error", PyExc_ValueError); })
+          .get_stored();
+  type.attr("__module__") = "svnet";
+  type.attr("__doc__") = kErrorDoc;
+  py::register_local_exception_translator([](std::exception_ptr thrown) {
+    try {
+      if (thrown) std::rethrow_exception(std::move(thrown));
+    } catch (const svnet::Error& error) {
+      raise_error(storage.get_stored(), error.what());
+    }
+  });
+}
+
 void set_threads(const py::object& n) {
   const std::uint64_t threads = svnet::python::whole_number("set_threads", "n", n, 1);
   svnet::check(threads <= 1024, "[set_threads] n is ", threads, "; expects 1 to 1024");
@@ -34,9 +62,7 @@ PYBIND11_MODULE(_svnet, module) {
   py::options options;
   options.disable_function_signatures();
 
-  auto& error = py::register_exception<svnet::Error>(module, "Error", PyExc_ValueError);
-  error.attr("__module__") = "svnet";
-  error.attr("__doc__") = kErrorDoc;
+  bind_error(module);
   module.attr("__version__") = svnet::kVersion;
   module.def("set_threads", set_threads, kSetThreadsDoc, py::arg("n"));
   svnet::python::bind_camera_pose(module);

@@ -45,6 +45,7 @@ def test_numbers_of_any_type():
     "arguments, message",
     [
         ((0, 45, 1, (0, 0, 0), "ros"), "the camera frame 'ros' is not known; known: paper, optical"),
+        ((0, 45, 1, (0, 0, 0), "\udcff"), r"the camera frame '\\udcff' is not known"),
         ((0, 45, 1, (0, 0, 0), 3), 'frame is no str; expects "paper" or "optical"'),
         ((0, 45, 0, (0, 0, 0)), "the radius is 0 m, expected a positive length"),
         ((0, 45, -1, (0, 0, 0)), "the radius is -1 m, expected a positive length"),

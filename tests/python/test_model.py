@@ -143,6 +143,9 @@ def test_files_that_are_refused(path, tmp_path):
         svnet.Model.load(5)
     with pytest.raises(svnet.Error, match=r"\[Model.load\] path is .*expects a path"):
         svnet.Model.load("model\0.safetensors")
+    for given in (b"caf\xe9.safetensors", os.fsdecode(b"caf\xe9.safetensors")):
+        with pytest.raises(svnet.Error, match=r"caf\\xe9\.safetensors"):
+            svnet.Model.load(given)
 
 
 def test_a_model_is_made_by_load_only():
