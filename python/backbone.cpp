@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <memory>
-#include <optional>
 
 #include <pybind11/stl.h>
 
@@ -70,10 +69,12 @@ std::unique_ptr<LoadedBackbone> made_of(Backbone backbone, std::vector<std::stri
   return std::unique_ptr<LoadedBackbone>(::new LoadedBackbone{std::move(backbone), std::move(unused_layers)});
 }
 
-std::unique_ptr<LoadedBackbone> load(const std::string& name, const py::object& given_weights,
-                                     const std::optional<std::string>& layer, const py::object& given_seed) {
+std::unique_ptr<LoadedBackbone> load(const py::object& given_name, const py::object& given_weights,
+                                     const py::object& given_layer, const py::object& given_seed) {
+  const std::string name = text("Backbone", "name", given_name, "the name of a network");
+  const std::string output =
+      given_layer.is_none() ? "" : text("Backbone", "layer", given_layer, "the name of a layer, or None");
   const std::uint64_t seed = whole_number("Backbone", "seed", given_seed);
-  const std::string output = layer.value_or("");
   if (given_weights.is_none()) {
     const Computing computing;
     if (auto built_in = built_in_backbone(name, output)) return made_of(std::move(built_in->backbone), {});

@@ -18,7 +18,8 @@ auto measured(const char* function, const py::object& given_true, const py::obje
   return metric(truth.values(), predicted.values());
 }
 
-NmiAverage average_named(const std::string& name) {
+NmiAverage average_named(const py::object& given) {
+  const std::string name = text("normalized_mutual_info", "average", given, R"("arithmetic" or "geometric")");
   const std::vector<std::string> names{"arithmetic", "geometric"};
   if (name == names[0]) return NmiAverage::arithmetic;
   check(name == names[1], "[normalized_mutual_info] there is no average '", name, "'", suggestion(name, names));
@@ -93,7 +94,7 @@ void bind_cluster_metrics(py::module_& module) {
       kIndividualDoc, py::arg("true"), py::arg("pred"));
   module.def(
       "normalized_mutual_info",
-      [](const py::object& truth, const py::object& pred, const std::string& average) {
+      [](const py::object& truth, const py::object& pred, const py::object& average) {
         return measured("normalized_mutual_info", truth, pred, [mean = average_named(average)](auto t, auto p) {
           return svnet::normalized_mutual_info(t, p, mean);
         });

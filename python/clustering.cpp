@@ -74,8 +74,10 @@ py::array_t<std::int64_t> ward(const py::object& features, const py::object& n_c
 }
 
 py::array_t<std::int64_t> agglomerative(const py::object& features, const py::object& n_clusters,
-                                        const std::string& linkage) {
-  return agglomerated("agglomerative", features, n_clusters, linkage_named(linkage));
+                                        const py::object& linkage) {
+  constexpr const char* kFunction = "agglomerative";
+  const std::string name = text(kFunction, "linkage", linkage, R"("ward", "average", "complete" or "single")");
+  return agglomerated(kFunction, features, n_clusters, linkage_named(name));
 }
 
 constexpr const char* kKMeansDoc = R"(kmeans(features, n_clusters, n_init=10, seed=0)

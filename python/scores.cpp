@@ -10,7 +10,8 @@ namespace {
 
 namespace py = pybind11;
 
-Singletons singletons_named(const std::string& name) {
+Singletons singletons_named(const py::object& given) {
+  const std::string name = text("semantic_scores", "singletons", given, R"("zero" or "skip")");
   const std::vector<std::string> names{"zero", "skip"};
   if (name == names[0]) return Singletons::zero;
   check(name == names[1], "[semantic_scores] there is no treatment of singletons '", name, "'",
@@ -19,7 +20,7 @@ Singletons singletons_named(const std::string& name) {
 }
 
 ScoreOptions options_from(const py::object& problems, const py::object& min_samples, const py::object& seed,
-                          const std::string& singletons) {
+                          const py::object& singletons) {
   check(!problems.is_none() || !min_samples.is_none(),
         "[semantic_scores] nothing says when to stop; give problems or min_samples");
   ScoreOptions options{.seed = whole_number("semantic_scores", "seed", seed),
@@ -61,7 +62,7 @@ categories.
 
 py::dict semantic_scores(const py::object& given_features, const py::object& given_category,
                          const py::object& given_object, const py::object& given_pose, const py::object& problem_count,
-                         const py::object& min_samples, const py::object& seed, const std::string& singletons) {
+                         const py::object& min_samples, const py::object& seed, const py::object& singletons) {
   const char* function = "semantic_scores";
   const GivenFeatures features(function, given_features);
   const GivenLabels category(function, "category", given_category), object(function, "object", given_object),

@@ -89,6 +89,12 @@ def test_names_that_are_refused(tmp_path):
         svnet.Backbone("mobilenetv2")
     with pytest.raises(svnet.Error, match="block_3_exand.*block_3_expand"):
         svnet.Backbone("mobilenet_v2", layer="block_3_exand")
+    with pytest.raises(svnet.Error, match=r"^\[Backbone\] name is no str; expects the name of a network$"):
+        svnet.Backbone(None)
+    with pytest.raises(svnet.Error, match=r"^\[Backbone\] layer is no str; expects the name of a layer, or None$"):
+        svnet.Backbone("mobilenet_v2", layer=5)
+    with pytest.raises(svnet.Error, match=r"no layer '\\udcff'"):
+        svnet.Backbone("mobilenet_v2", layer="\udcff")
     missing = tmp_path / "missing.h5"
     for weights in (missing, str(missing), os.fsencode(missing)):
         with pytest.raises(svnet.Error, match="missing.h5"):

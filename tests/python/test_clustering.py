@@ -153,3 +153,11 @@ def test_other_numbers_that_are_refused():
     with pytest.raises(svnet.Error, match="seed is -1; expects a whole number from 0"):
         svnet.kmeans(POINTS, 2, seed=-1)
     assert svnet.kmeans(POINTS, np.int8(2), n_init=np.uint16(3), seed=np.int64(5))[0].tolist() == [0, 0, 0, 0, 1]
+
+
+def test_linkages_that_are_refused():
+    with pytest.raises(svnet.Error, match="'wards' is unknown, did you mean 'ward'?"):
+        svnet.agglomerative(POINTS, 2, "wards")
+    for linkage in (None, 3, b"ward"):
+        with pytest.raises(svnet.Error, match='linkage is no str; expects "ward", "average", "complete" or "single"$'):
+            svnet.agglomerative(POINTS * 1000, 2, linkage)

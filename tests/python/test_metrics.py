@@ -77,3 +77,6 @@ def test_labels_that_are_refused(metric, truth, pred, message):
 def test_unknown_average():
     with pytest.raises(svnet.Error, match="there is no average 'geometrik', did you mean 'geometric'?"):
         svnet.normalized_mutual_info(TRUE, PRED, average="geometrik")
+    for average in (None, 1, b"geometric"):
+        with pytest.raises(svnet.Error, match='average is no str; expects "arithmetic" or "geometric"$'):
+            svnet.normalized_mutual_info(TRUE, PRED, average)

@@ -77,6 +77,7 @@ def test_group_numbers_may_have_any_dtype(features):
         ({"min_samples": -5}, "min_samples is -5; expects a whole number from 1"),
         ({"problems": 1, "seed": 0.5}, "seed is 0.5; expects a whole number from 0"),
         ({"problems": 1, "singletons": "skipp"}, "no treatment of singletons 'skipp', did you mean 'skip'?"),
+        ({"problems": 1, "singletons": None}, 'singletons is no str; expects "zero" or "skip"$'),
     ],
 )
 def test_options_that_are_refused(features, options, message):
