@@ -9,6 +9,7 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -142,12 +143,18 @@ struct Parallel::Pool {
   /// A forked process has no helpers, only their handles: there is nobody to wake and nobody to join.
   bool forked() const { return getpid() != process; }
 
+  /// Throws Error where the system does not make that many; there are no helpers then.
   void start(int count) {
-    threads = count;
     parts = std::vector<Part>(static_cast<std::size_t>(count));
     stop = false;
     may_spin = count <= affinity_count();
-    for (int worker = 1; worker < count; ++worker) helpers.emplace_back([this, worker] { help(worker); });
+    try {
+      for (int worker = 1; worker < count; ++worker) helpers.emplace_back([this, worker] { help(worker); });
+    } catch (const std::system_error& error) {
+      join();
+      fail("[threads] cannot start ", count, " threads: ", error.code().message());
+    }
+    threads = count;
   }
 
   /// A call is news to a helper that was not in it yet. `seen`: the last one it was in.
@@ -235,7 +242,12 @@ void Parallel::resize(int threads) {
   }
   std::lock_guard call(pool_->call);
   pool_->join();
-  pool_->start(threads);
+  try {
+    pool_->start(threads);
+  } catch (const Error&) {
+    pool_->start(pool_->threads);
+    throw;
+  }
 }
 
 void Parallel::for_chunks(Index count, Index chunk, Body body) {

@@ -24,7 +24,8 @@ class Parallel {
   Parallel& operator=(const Parallel&) = delete;
 
   int threads() const;
-  /// Waits for a running call, then changes the number of threads. Throws Error outside [1, 1024].
+  /// Waits for a running call, then changes the number of threads. Throws Error outside [1, 1024], and where the system
+  /// does not make that many; the number stays as it was then.
   void resize(int threads);
 
   /// Runs body on [0, chunk), [chunk, 2 chunk), … up to `count`, in any order, and returns when all are done.

@@ -168,3 +168,35 @@ def test_a_process_forked_while_others_compute_may_change_the_number_of_threads(
         os._exit(0)
         """
     )
+
+
+def test_threads_that_cannot_be_started_leave_those_that_there_are():
+    run(
+        """
+        import resource
+        import time
+
+        def expect_threads(number):
+            while len(os.listdir("/proc/self/task")) != number:  # one that was joined may be there for a moment
+                time.sleep(0.01)
+
+        features = np.random.default_rng(1).normal(size=(300, 8))
+        expected = svnet.ward(features, 5)
+        svnet.set_threads(3)
+        before = len(os.listdir("/proc/self/task"))
+        with open("/proc/self/statm") as file:
+            used = int(file.read().split()[0]) * resource.getpagesize()
+        limits = resource.getrlimit(resource.RLIMIT_AS)
+        resource.setrlimit(resource.RLIMIT_AS, (used + (256 << 20), limits[1]))  # each thread has a stack
+        try:
+            svnet.set_threads(1000)
+            assert False
+        except svnet.Error as error:
+            assert "cannot start 1000 threads: " in str(error), error
+        expect_threads(before)
+        assert (svnet.ward(features, 5) == expected).all()
+        resource.setrlimit(resource.RLIMIT_AS, limits)
+        svnet.set_threads(4)
+        expect_threads(before + 1)
+        """
+    )
