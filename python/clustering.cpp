@@ -64,6 +64,7 @@ py::array_t<std::int64_t> agglomerated(const char* function, const py::object& g
   {
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
+    let_python_interrupt();
     Agglomerative(linkage, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
   }
   return label_array(labels);
@@ -108,7 +109,7 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
                  const py::object& given_seed) {
   const GivenFeatures features("kmeans", given);
   const Index n = features.rows(), k = count_of("kmeans", "n_clusters", n_clusters);
-  const KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init)};
+  const KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init), .after_iteration = let_python_interrupt};
   const std::uint64_t seed = whole_number("kmeans", "seed", given_seed);
   // Before memory is made for k clusters.
   check(k <= n, "[kmeans] cannot make ", k, " clusters of ", n, " points; 1 to ", n, " are possible");
@@ -117,6 +118,7 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
   {
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
+    let_python_interrupt();
     inertia = KMeans(n, k, features.columns(), options)
                   .cluster(distances, all_rows(n), k, RandomStream(seed, Stream::kmeans), labels);
   }

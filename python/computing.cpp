@@ -1,5 +1,6 @@
 #include "computing.h"
 
+#include <chrono>
 #include <mutex>
 
 #include <pthread.h>
@@ -38,8 +39,12 @@ void set_threads(int threads) {
 }
 
 void let_python_interrupt() {
+  using Clock = std::chrono::steady_clock;
+  thread_local Clock::time_point next_look{};
+  if (Clock::now() < next_look) return;
   const pybind11::gil_scoped_acquire acquire;
   if (PyErr_CheckSignals() != 0) throw pybind11::error_already_set();
+  next_look = Clock::now() + std::chrono::milliseconds(20);
 }
 
 }  // namespace svnet::python

@@ -24,7 +24,8 @@ class Computing {
 /// 1024], and in a signal handler that interrupts a computation.
 void set_threads(int threads);
 
-/// Raises KeyboardInterrupt, or whatever a signal handler raises. Called while computing, now and then.
+/// Raises KeyboardInterrupt, or whatever a signal handler raises. Called while computing, as often as convenient: it
+/// waits for the GIL at most every 20 ms.
 void let_python_interrupt();
 
 }  // namespace svnet::python

@@ -146,6 +146,7 @@ double KMeans::lloyd(std::span<std::int32_t> labels) {
     assign(labels);
     fill_empty_clusters(labels);
     const double shift = move_centres();
+    if (options_.after_iteration) options_.after_iteration();
     if (std::equal(labels.begin(), labels.end(), previous_labels_.begin())) {
       for (Index i = 0; i < n_; ++i) nearest_[i] = std::max(0.0, to_centre(i, labels[i]));
       return inertia();

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct KMeansOptions {
   Index n_init = 10;           ///< runs, of which the one with the lowest inertia is kept
   Index max_iterations = 300;  ///< of one run
   double tolerance = 1e-4;  ///< a run ends when its centres move less: sum of squares, over the mean feature variance
+  std::function<void()> after_iteration{};  ///< if any, called after each one: to stop by an exception
 };
 
 /// k-means of some rows of a distance matrix with the semantics of scikit-learn's KMeans(algorithm="lloyd"), and the

@@ -1,3 +1,7 @@
+import signal
+import threading
+import time
+
 import numpy as np
 import pytest
 
@@ -161,3 +165,25 @@ def test_linkages_that_are_refused():
     for linkage in (None, 3, b"ward"):
         with pytest.raises(svnet.Error, match='linkage is no str; expects "ward", "average", "complete" or "single"$'):
             svnet.agglomerative(POINTS * 1000, 2, linkage)
+
+
+def test_interrupt_ends_kmeans(random):
+    features = random.normal(size=(300, 8))
+    threading.Timer(0.1, lambda: signal.raise_signal(signal.SIGINT)).start()
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        svnet.kmeans(features, 20, n_init=10**6)
+    assert time.monotonic() - start < 5
+
+
+@pytest.mark.parametrize("cluster", [svnet.ward, svnet.agglomerative])
+def test_interrupt_after_the_distances_ends_an_agglomeration(cluster, random):
+    features = random.normal(size=(4000, 1000))
+    # Refuses within a computation, not after it.
+    before = signal.signal(signal.SIGALRM, lambda *_: svnet.set_threads(1))
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.02)
+        with pytest.raises(svnet.Error, match="while a computation is interrupted"):
+            cluster(features, 2)
+    finally:
+        signal.signal(signal.SIGALRM, before)
