@@ -1,5 +1,6 @@
 #include "arguments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -67,12 +68,14 @@ std::string utf8(const py::str& text) {
   return py::reinterpret_steal<py::bytes>(bytes);
 }
 
+/// On one line.
 std::string repr(const py::object& given) {
   constexpr py::ssize_t kLongest = 60;
   const auto text = if_it_fits([&] { return py::repr(given); });  // not an int of more than 4300 digits
   if (!text) return joined("<unprintable ", Py_TYPE(given.ptr())->tp_name, " object>");
-  if (py::len(*text) <= kLongest) return utf8(*text);
-  return utf8((*text)[py::slice(0, kLongest, 1)]) + "...";
+  std::string shown = utf8((*text)[py::slice(0, kLongest, 1)]);
+  std::ranges::replace(shown, '\n', ' ');
+  return py::len(*text) <= kLongest ? shown : shown + "...";
 }
 
 }  // namespace

@@ -6,6 +6,7 @@ import sys
 import textwrap
 import threading
 
+import numpy as np
 import pytest
 
 import svnet
@@ -113,6 +114,8 @@ def test_values_in_messages_are_short():
         svnet.set_threads("é" * 1000)
     with pytest.raises(svnet.Error, match=r"^\[set_threads\] n is <unprintable int object>; expects"):
         svnet.set_threads(1 << 100000)
+    with pytest.raises(svnet.Error, match=r"n is array\(\[\[1\., 1\.\], +\[1\., 1\.\]\]\); expects"):
+        svnet.set_threads(np.ones((2, 2)))
 
 
 def run(script):
