@@ -19,7 +19,7 @@ constexpr const char* kWardDoc = R"(ward(features, n_clusters)
 --
 
 Agglomerative clustering with Ward's linkage, the partition of scikit-learn's
-AgglomerativeClustering(n_clusters, linkage="ward").
+AgglomerativeClustering(n_clusters, linkage="ward") where distances differ in float32, to which they are rounded.
 
 Parameters
 ----------
@@ -38,8 +38,9 @@ svnet.Error where shapes, types or numbers do not fit, and for features that are
 constexpr const char* kAgglomerativeDoc = R"(agglomerative(features, n_clusters, linkage="ward")
 --
 
-Agglomerative clustering, the partition of scikit-learn's AgglomerativeClustering(n_clusters, linkage=linkage). Of
-equally near pairs of clusters the one whose first items come first is merged.
+Agglomerative clustering, the partition of scikit-learn's AgglomerativeClustering(n_clusters, linkage=linkage) where
+distances differ in float32, to which they are rounded. Of equally near pairs of clusters the one whose first items
+come first is merged.
 
 Parameters
 ----------

@@ -25,7 +25,8 @@ constexpr const char* kLoadDoc = R"(load(path)
 The model of a file that svnet-train wrote (model.safetensors).
 
 path : str, bytes or os.PathLike
-Raises svnet.Error for a file that cannot be read, is cut short or damaged, or is no model.
+Raises svnet.Error for a file that cannot be read, is cut short, whose header is damaged,
+that holds weights that are not finite, or is no model.
 )";
 
 constexpr const char* kScoreDoc = R"(score(self, image, angles_deg)
