@@ -59,7 +59,7 @@ def test_labels_may_be_any_whole_numbers(metric):
 @pytest.mark.parametrize(
     "truth, pred, message",
     [
-        ([], [], "0 items"),
+        ([], [], "there are no labels"),
         ([0, 1], [0], "2.*1"),
         ([[0, 1]], [[0, 1]], r"true has shape \(1, 2\); expects \(N,\)"),
         ([0, 1], ["a", "b"], "pred has dtype <U1"),
