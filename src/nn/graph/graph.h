@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "nn/graph/layer.h"
@@ -15,6 +16,16 @@ struct GraphNode {
   std::vector<NodeId> inputs;
   Shape shape;  // of the output, without the batch
   std::vector<ParameterSpec> parameters;
+
+  /// The layer if it is of that kind, else nullptr.
+  template <class L>
+  const L* as() const {
+    return std::get_if<L>(&layer);
+  }
+  template <class L>
+  bool is() const {
+    return as<L>() != nullptr;
+  }
 
   /// "name/kernel": how a parameter is called in Parameters and in files.
   std::string parameter_name(const ParameterSpec& spec) const { return name + "/" + spec.name; }

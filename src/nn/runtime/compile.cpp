@@ -30,7 +30,7 @@ class Compiler {
       value_[at(id)] = new_value(size(id));
     }
     for (NodeId id = 0; id <= graph_.output(); ++id)
-      if (!fusion_.fused(id) && !is<InputLayer>(id)) emit(id);
+      if (!fusion_.fused(id) && !node(id).is<InputLayer>()) emit(id);
     finish_output();
     return std::move(program_);
   }
@@ -39,14 +39,6 @@ class Compiler {
   static std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
   const GraphNode& node(NodeId id) const { return graph_.node(id); }
   NodeId input(NodeId id) const { return node(id).inputs[0]; }
-  template <class L>
-  const L* as(NodeId id) const {
-    return std::get_if<L>(&node(id).layer);
-  }
-  template <class L>
-  bool is(NodeId id) const {
-    return as<L>(id) != nullptr;
-  }
   Index size(NodeId id) const { return element_count(node(id).shape); }
   Index channels(NodeId id) const { return node(id).shape.back(); }
 
@@ -95,15 +87,15 @@ class Compiler {
   /// The step of a node that is not fused into another.
   void emit(NodeId id) {
     Fused f{.last = id, .main = id};
-    if (is<Pool2dLayer>(f.main) && fusion_.fused(input(f.main))) {
+    if (node(f.main).is<Pool2dLayer>() && fusion_.fused(input(f.main))) {
       f.finish.pool = true;
       f.main = input(f.main);
     }
-    if (const auto* a = as<ActivationLayer>(f.main); a != nullptr && fusion_.fused(input(f.main))) {
+    if (const auto* a = node(f.main).as<ActivationLayer>(); a != nullptr && fusion_.fused(input(f.main))) {
       f.finish.clamp = *clamp_of(a->activation);
       f.main = input(f.main);
     }
-    if (is<AddLayer>(f.main))
+    if (node(f.main).is<AddLayer>())
       emit_add(f);
     else
       emit_layer(f);
@@ -143,7 +135,7 @@ class Compiler {
   /// A pointwise convolution with the depthwise one before it, and what makes that one's image if it is fused, too.
   void emit_separable(const Fused& f, const Conv2dLayer& pointwise) {
     const NodeId first = input(f.main), from = fusion_.source(first);
-    const auto& d = *as<DepthwiseConv2dLayer>(first);
+    const auto& d = *node(first).as<DepthwiseConv2dLayer>();
     const DepthwisePart depthwise{.kernel = get(first, "depthwise_kernel"),
                                   .bias = bias(first, d),
                                   .relu_input = fusion_.relu_before(first),
@@ -152,7 +144,7 @@ class Compiler {
     const Window window = fusion_.window(first, d);
     if (!fusion_.fused(from))
       return push(f.last, separable_step(window, depthwise, kernel, own_bias, f.finish, precision_), inputs(f, from));
-    const auto& e = *as<Conv2dLayer>(from);
+    const auto& e = *node(from).as<Conv2dLayer>();
     const ExpansionPart expansion{
         .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *clamp_of(e.activation)};
     push(f.last, expanded_separable_step(window, expansion, depthwise, kernel, own_bias, f.finish, precision_),
@@ -168,7 +160,7 @@ class Compiler {
     if (f.finish.pool) {
       push(f.last,
            separable_max_pool_step(window, depthwise, pointwise, own_bias, f.finish.clamp,
-                                   fusion_.pool_window(f.last, *as<Pool2dLayer>(f.last)), precision_),
+                                   fusion_.pool_window(f.last, *node(f.last).as<Pool2dLayer>()), precision_),
            inputs(f, from));
     } else if (fusion_.is_separable(f.main)) {
       push(f.last, separable_step(window, depthwise, pointwise, own_bias, f.finish, precision_), inputs(f, from));

@@ -56,7 +56,7 @@ Chain chain_from(const Graph& graph, const std::vector<bool>& needed, NodeId id,
     next = only_reader(graph, needed, *next, output);
   }
   if (next)
-    if (const auto* layer = std::get_if<ActivationLayer>(&graph.node(*next).layer);
+    if (const auto* layer = graph.node(*next).as<ActivationLayer>();
         layer != nullptr && (layer->activation == Activation::relu || layer->activation == Activation::relu6)) {
       chain.activation = layer->activation;
       chain.last = *next;

@@ -40,22 +40,24 @@ Fusion::Fusion(const Graph& graph, Convolution convolution)
 
 NodeId Fusion::source(NodeId id) const {
   const NodeId input = node(id).inputs[0];
-  return fused(input) && (is<ZeroPadding2dLayer>(input) || is<ActivationLayer>(input)) ? node(input).inputs[0] : input;
+  return fused(input) && (node(input).is<ZeroPadding2dLayer>() || node(input).is<ActivationLayer>())
+             ? node(input).inputs[0]
+             : input;
 }
 
 bool Fusion::relu_before(NodeId id) const {
   const NodeId input = node(id).inputs[0];
-  return fused(input) && is<ActivationLayer>(input);
+  return fused(input) && node(input).is<ActivationLayer>();
 }
 
 bool Fusion::is_separable(NodeId id) const {
-  if (const auto* l = as<SeparableConv2dLayer>(id)) return l->multiplier == 1;
+  if (const auto* l = node(id).as<SeparableConv2dLayer>()) return l->multiplier == 1;
   const NodeId input = node(id).inputs[0];
-  return is<Conv2dLayer>(id) && is<DepthwiseConv2dLayer>(input) && fused(input);
+  return node(id).is<Conv2dLayer>() && node(input).is<DepthwiseConv2dLayer>() && fused(input);
 }
 
 bool Fusion::uses_winograd(NodeId id) const {
-  const auto* l = as<Conv2dLayer>(id);
+  const auto* l = node(id).as<Conv2dLayer>();
   if (l == nullptr || convolution_ == Convolution::direct) return false;
   const Window w = window(id, *l);
   return kernels::winograd_fits(w, l->filters) && (convolution_ == Convolution::winograd || (w.c >= 32 && w.oh >= 4));
@@ -64,7 +66,7 @@ bool Fusion::uses_winograd(NodeId id) const {
 Window Fusion::window_of(NodeId id, Index kh, Index kw, Index stride_h, Index stride_w, const Padding& own) const {
   const Shape& x = node(source(id)).shape;
   const NodeId input = node(id).inputs[0];
-  const auto* border = fused(input) ? as<ZeroPadding2dLayer>(input) : nullptr;
+  const auto* border = fused(input) ? node(input).as<ZeroPadding2dLayer>() : nullptr;
   return window_over("runtime", 1, x[0], x[1], x[2],
                      {.kh = kh,
                       .kw = kw,
@@ -79,7 +81,7 @@ Window Fusion::pool_window(NodeId id, const Pool2dLayer& layer) const {
 }
 
 void Fusion::fuse_padding(NodeId input, const Padding& own) {
-  if (is<ZeroPadding2dLayer>(input) && is_valid(own)) fuse(input);
+  if (node(input).is<ZeroPadding2dLayer>() && is_valid(own)) fuse(input);
 }
 
 /// Marks those inputs of the node that become part of its step. Inputs come before their readers, so what is fused
@@ -91,7 +93,7 @@ void Fusion::fuse_inputs(NodeId id) {
   std::visit(Overloaded{[&](const Conv2dLayer& l) {
                           if (!alone) return;
                           fuse_padding(input, l.padding);
-                          const auto* depthwise = as<DepthwiseConv2dLayer>(input);
+                          const auto* depthwise = node(input).as<DepthwiseConv2dLayer>();
                           if (depthwise == nullptr || depthwise->multiplier != 1 || !clamp_of(depthwise->activation) ||
                               !is_plain_pointwise(l))
                             return;
@@ -105,7 +107,7 @@ void Fusion::fuse_inputs(NodeId id) {
                           if (!alone || l.multiplier != 1) return;
                           fuse_padding(input, l.padding);
                           // An activation that takes an addition along is a step of its own.
-                          if (const auto* a = as<ActivationLayer>(input);
+                          if (const auto* a = node(input).as<ActivationLayer>();
                               a != nullptr && a->activation == Activation::relu && !fused(node(input).inputs[0]))
                             fuse(input);
                         },
@@ -115,7 +117,7 @@ void Fusion::fuse_inputs(NodeId id) {
                             if (only_reader_of(which) && can_add(which)) return fuse(which);
                         },
                         [&](const ActivationLayer& l) {
-                          if (alone && is<AddLayer>(input) && clamp_of(l.activation)) fuse(input);
+                          if (alone && node(input).is<AddLayer>() && clamp_of(l.activation)) fuse(input);
                         },
                         [&](const Pool2dLayer& l) {
                           if (alone && can_pool(id, l)) fuse(input);
@@ -127,16 +129,16 @@ void Fusion::fuse_inputs(NodeId id) {
 /// Whether what a depthwise convolution reads can be made row by row as it is needed.
 bool Fusion::can_expand(NodeId depthwise) const {
   const NodeId from = source(depthwise);
-  const auto* l = as<Conv2dLayer>(from);
+  const auto* l = node(from).as<Conv2dLayer>();
   return l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
          window(from, *l).reads_in_place() &&
-         kernels::fits_strips(window(depthwise, *as<DepthwiseConv2dLayer>(depthwise)));
+         kernels::fits_strips(window(depthwise, *node(depthwise).as<DepthwiseConv2dLayer>()));
 }
 
 /// Whether the node's kernel can add another value to its output.
 bool Fusion::can_add(NodeId id) const {
-  if (const auto* l = as<SeparableConv2dLayer>(id)) return is_separable(id) && l->activation == Activation::none;
-  const auto* l = as<Conv2dLayer>(id);
+  if (const auto* l = node(id).as<SeparableConv2dLayer>()) return is_separable(id) && l->activation == Activation::none;
+  const auto* l = node(id).as<Conv2dLayer>();
   return l != nullptr && l->activation == Activation::none && !uses_winograd(id);
 }
 
@@ -145,10 +147,10 @@ bool Fusion::can_pool(NodeId id, const Pool2dLayer& layer) const {
   if (layer.kind != PoolKind::max) return false;
   const NodeId input = node(id).inputs[0];
   const WindowOptions& w = layer.window;
-  if (const auto* l = as<Conv2dLayer>(input); l != nullptr && uses_winograd(input))
+  if (const auto* l = node(input).as<Conv2dLayer>(); l != nullptr && uses_winograd(input))
     return w.kh == 2 && w.kw == 2 && w.stride_h == 2 && w.stride_w == 2 && is_valid(w.padding) &&
            clamp_of(l->activation);
-  const auto* separable = as<SeparableConv2dLayer>(input);
+  const auto* separable = node(input).as<SeparableConv2dLayer>();
   return separable != nullptr && is_separable(input) && clamp_of(separable->activation) &&
          kernels::fits_strips(pool_window(id, layer));
 }

@@ -42,14 +42,6 @@ class Fusion {
  private:
   static std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
   const GraphNode& node(NodeId id) const { return graph_.node(id); }
-  template <class L>
-  const L* as(NodeId id) const {
-    return std::get_if<L>(&node(id).layer);
-  }
-  template <class L>
-  bool is(NodeId id) const {
-    return as<L>(id) != nullptr;
-  }
 
   Window window_of(NodeId id, Index kh, Index kw, Index stride_h, Index stride_w, const Padding& own) const;
   bool only_reader_of(NodeId input) const { return readers_[at(input)] == 1 && !fused(input); }
