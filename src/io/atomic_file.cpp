@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "temporary_name.h"
 
 namespace svnet {
 namespace {
@@ -81,12 +82,6 @@ bool same_file(const fs::path& a, const fs::path& b) {
   const bool exists = fs::exists(a, error);
   if (exists != fs::exists(b, error)) return false;
   return exists ? fs::equivalent(a, b, error) : fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
-}
-
-/// What the names of a target's temporaries begin with; PID-N.tmp follows. The target's name is cut so that they are
-/// not longer than file systems allow.
-std::string temporary_prefix(const fs::path& target) {
-  return ".svnet-" + target.filename().string().substr(0, 200) + "-";
 }
 
 /// The process that made the temporary, 0 where the name is not one of the target's.

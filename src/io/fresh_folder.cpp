@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "temporary_name.h"
 
 namespace svnet {
 namespace {
@@ -29,9 +30,9 @@ fs::path target_of(const fs::path& name) {
   return target;
 }
 
-/// A new, empty folder beside `target`. Its name is cut so that it is not longer than file systems allow.
+/// A new, empty folder beside `target`.
 fs::path folder_beside(const fs::path& target, const fs::path& name) {
-  const std::string prefix = ".svnet-" + target.filename().string().substr(0, 200) + "-";
+  const std::string prefix = temporary_prefix(target);
   std::error_code error;
   fs::create_directories(target.parent_path(), error);
   for (unsigned counter = 0; !error; ++counter) {
