@@ -26,10 +26,8 @@ constexpr const char* kViewNames = "PHI_THETA.png, .jpg, .jpeg or .webp, such as
 std::vector<fs::path> entries(const fs::path& folder) {
   std::vector<fs::path> found;
   try {
-    for (const auto& entry : fs::directory_iterator(folder)) {
-      const char first = entry.path().filename().native().front();
-      if (first != '_' && first != '.') found.push_back(entry.path());
-    }
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (!is_ignored_name(entry.path().filename())) found.push_back(entry.path());
   } catch (const fs::filesystem_error& error) {
     fail(folder.string(), ": cannot be read: ", error.code().message());
   }
@@ -119,6 +117,8 @@ void read_pose(const fs::path& folder, Index object, ViewDataset& dataset) {
 }
 
 }  // namespace
+
+bool is_ignored_name(const fs::path& name) { return name.native().front() == '_' || name.native().front() == '.'; }
 
 std::span<const View> ViewDataset::views_of(Index pose) const {
   const Pose& range = poses[static_cast<std::size_t>(pose)];

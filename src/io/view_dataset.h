@@ -51,6 +51,9 @@ struct ViewDataset {
   std::string pose_path(Index pose) const;
 };
 
+/// Whether a file or folder of that name, in whatever place, is none of the data set: it begins with '_' or '.'.
+bool is_ignored_name(const std::filesystem::path& name);
+
 /// Reads the names, not the pictures. Throws Error that names the file or folder for anything that does not fit: a name
 /// that is no view, an angle out of range, the same view twice, a pose without its top view, an empty folder.
 ViewDataset read_view_dataset(const std::filesystem::path& root);

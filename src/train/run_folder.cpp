@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "io/view_dataset.h"
 #include "train/config/config.h"
 
 namespace svnet {
@@ -36,9 +37,7 @@ bool is_named_as_result(const fs::path& file) {
 bool is_among_pictures(const fs::path& folder, const fs::path& root) {
   const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(root));
   if (relative.empty() || *relative.begin() == "..") return false;
-  return relative == "." || std::none_of(relative.begin(), relative.end(), [](const fs::path& part) {
-           return part.native().front() == '_' || part.native().front() == '.';
-         });
+  return relative == "." || std::none_of(relative.begin(), relative.end(), is_ignored_name);
 }
 
 }  // namespace

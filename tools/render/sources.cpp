@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/mesh_file.h"
+#include "io/view_dataset.h"
 #include "view/render/catalogue.h"
 #include "view/render/collection.h"
 
@@ -47,8 +48,7 @@ std::vector<fs::path> named_entries(const fs::path& folder, bool (*is_meant)(con
   std::vector<fs::path> entries;
   for (const fs::path& entry : sorted_entries(folder)) {
     if (!is_meant(entry)) continue;
-    const char first = entry.filename().string().front();
-    if (first == '_' || first == '.')
+    if (is_ignored_name(entry.filename()))
       say("left out: " + entry.string() + ": names that begin with '_' or '.' are ignored in data sets");
     else
       entries.push_back(entry);
