@@ -135,14 +135,6 @@ ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path) {
   return snapshot;
 }
 
-bool is_scores_snapshot(const std::filesystem::path& path) {
-  try {
-    return Hdf5File::open(path).has("sums");
-  } catch (const Error&) {
-    return false;
-  }
-}
-
 void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot) {
   write_atomically(path, [&](const std::filesystem::path& temporary) {
     Hdf5File file = Hdf5File::create(temporary, path.string());

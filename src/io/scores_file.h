@@ -61,9 +61,6 @@ std::filesystem::path snapshot_path(const std::filesystem::path& scores);
 /// Throws Error for a file that is no snapshot, or not as it was written.
 ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
 
-/// Whether the file is one, damaged or not.
-bool is_scores_snapshot(const std::filesystem::path& path);
-
 /// Replaces the file as a whole.
 void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot);
 

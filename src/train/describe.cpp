@@ -101,7 +101,7 @@ std::string description_of(const std::filesystem::path& file) {
   const Hdf5File hdf5 = Hdf5File::open(file);
   if (hdf5.has("features")) return describe_features(file);
   if (hdf5.has("individual")) return describe_scores(file);
-  if (is_scores_snapshot(file)) return describe_snapshot(file);
+  if (hdf5.has("sums")) return describe_snapshot(file);
   return describe_weights(file);
 }
 
