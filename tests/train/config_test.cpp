@@ -115,8 +115,6 @@ TEST_CASE("every error of a key names file, line and key") {
         "c.yaml:3: evaluation.pipelines[0]: xception_wrad: unknown value 'wrad', expected one of ward, average, "
         "complete, single, "
         "kmeans; did you mean 'ward'?");
-  CHECK(at_line_3("evaluation: {pipelines: []}") ==
-        "c.yaml:3: evaluation.pipelines: at least one pipeline is needed, as in [mobilenet_v2_ward]");
   CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: car") ==
         "c.yaml:4: dataset.held_out: 'car' is wrong, expected a list, as in [first, second]");
   CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: [car,\n    dog, car]") ==
@@ -212,6 +210,11 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   CHECK(again.scores.layer == "~");
   CHECK(again.seed == 9223372036854775807);
   CHECK(again.scores.singletons == Config::Scores::Singletons::skip);
+}
+
+TEST_CASE("the tables are of the pipeline of the scores where none is named") {
+  CHECK(parse("dataset: {root: data}\nscores: {backbone: mobilenet, clustering: single, problems: 1}\n")
+            .evaluation.pipelines == std::vector<std::string>{"mobilenet_single"});
 }
 
 TEST_CASE("every key can be overridden by its own written value, and its default is accepted") {

@@ -93,13 +93,20 @@ void check_together(const Config& c, const ConfigReader& reader) {
 
 std::string written(Config config, bool documented, const path& folder) {
   std::string yaml, section;
-  for (const auto& key : bound_keys(config)) {
+  Config defaults;
+  const std::vector<BoundKey> keys = bound_keys(config), default_keys = bound_keys(defaults);
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const BoundKey& key = keys[i];
     if (section_of(key.name) != section) {
       section = section_of(key.name);
       yaml += "\n" + section + ":\n";
     }
     const std::string indent = section.empty() ? "" : "  ";
-    if (documented) yaml += indent + "# " + key.help + " [" + key.accepts + "]\n";
+    if (documented) {
+      const bool required = key.accepts.ends_with("required");
+      yaml += indent + "# " + key.help + " [" + key.accepts;
+      yaml += required ? "]\n" : "; default: " + default_keys[i].write({}) + "]\n";
+    }
     yaml += indent + last_part(key.name) + ": " + key.write(folder) + "\n";
   }
   return yaml;
@@ -114,6 +121,8 @@ Config parse_config(const std::string& text, const std::string& source, const pa
   reader.read(parse_yaml(text, source), std::filesystem::absolute(folder));
   for (const auto& assignment : overrides) reader.read(parse_override(assignment), std::filesystem::current_path());
   check_together(config, reader);
+  if (config.evaluation.pipelines.empty())
+    config.evaluation.pipelines = {joined(config.scores.backbone, "_", clustering_name(config.scores.clustering))};
   return config;
 }
 

@@ -64,7 +64,7 @@ struct Config {
   struct Evaluation {
     enum class Nmi { arithmetic, geometric };
     Index problems = 10000;
-    std::vector<std::string> pipelines{"xception_ward", "xception_kmeans", "vgg19_ward"};
+    std::vector<std::string> pipelines;  ///< empty only before parse_config has read the rest
     Nmi nmi = Nmi::arithmetic;
   };
 

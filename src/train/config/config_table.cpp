@@ -63,7 +63,6 @@ BoundKey pipelines(std::string name, Names& field, std::string help) {
   key.accepts = "a list of BACKBONE_CLUSTERING";
   key.read = [&field](const YamlValue& value, const path&) {
     field = yaml_texts(value);
-    check(!field.empty(), value.where(), ": at least one pipeline is needed, as in [mobilenet_v2_ward]");
     for (const auto& item : value.items) parse_pipeline(item.text, item.where());
   };
   return key;
@@ -73,6 +72,7 @@ BoundKey pipelines(std::string name, Names& field, std::string help) {
 
 std::vector<BoundKey> bound_keys(Config& c) {
   constexpr NumberRange kNotNegative{.min = 0}, kPositive{.min = 0, .min_open = true}, kFromOne{.min = 1};
+  constexpr NumberRange kProblems{.min = 0, .max = 0x1p32};  // ScoreSums::kMostProblems
   constexpr NumberRange kBelowOne{.min = 0, .max = 1, .max_open = true};
   const std::string backbone = "a backbone's name", layer = "a layer's name, or \"\"";
   return {
@@ -91,12 +91,13 @@ std::vector<BoundKey> bound_keys(Config& c) {
       text("scores.layer", c.scores.layer, layer, "The layer whose output is clustered. Empty: the pooled output."),
       choice("scores.clustering", c.scores.clustering, kClusterings,
              "The clustering: a linkage of agglomerative clustering, or k-means."),
-      whole("scores.min_samples", c.scores.min_samples, kNotNegative,
+      whole("scores.min_samples", c.scores.min_samples, kProblems,
             "Draw problems until every view was in so many of them. 0: no such rule."),
-      whole("scores.problems", c.scores.problems, kNotNegative, "Draw so many problems. 0: no such rule."),
+      whole("scores.problems", c.scores.problems, kProblems, "Draw so many problems. 0: no such rule."),
       number("scores.target_error", c.scores.target_error, kNotNegative,
              "Draw until the standard error of every score is at most this. 0: no such rule."),
-      whole("scores.min_categories", c.scores.min_categories, {.min = 2}, "Fewest categories of a problem."),
+      whole("scores.min_categories", c.scores.min_categories, {.min = 2},
+            "Fewest categories of a problem, or all where there are fewer."),
       whole("scores.max_categories", c.scores.max_categories, kNotNegative, "Most categories of a problem. 0: all."),
       whole("scores.min_objects", c.scores.min_objects, kFromOne, "Fewest objects of a category in a problem."),
       whole("scores.max_objects", c.scores.max_objects, kNotNegative,
@@ -134,8 +135,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
              "Turns: each top image in its eight orientations, quarter turns and mirror images, theta with it."),
 
       whole("evaluation.problems", c.evaluation.problems, kFromOne, "Clustering problems behind each table."),
-      pipelines("evaluation.pipelines", c.evaluation.pipelines,
-                "The pipelines of the tables: a backbone, an underscore and a clustering."),
+      pipelines(
+          "evaluation.pipelines", c.evaluation.pipelines,
+          "The pipelines of the tables: a backbone, an underscore and a clustering. Empty: those of the scores alone."),
       choice("evaluation.nmi", c.evaluation.nmi, {"arithmetic", "geometric"},
              "The mean that normalises mutual information; geometric is that of the paper's tables."),
   };

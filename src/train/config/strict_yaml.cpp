@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
-#include <charconv>
 #include <cmath>
 #include <sstream>
 
@@ -145,14 +143,6 @@ std::string what_it_is(const YamlValue& value) {
   fail(value.where(), ": ", what_it_is(value), ", expected ", expected);
 }
 
-/// The whole text as a number; false where it is not one.
-template <class Number>
-bool parse_number(const std::string& text, Number& number) {
-  const char* end = text.data() + text.size();
-  const auto result = std::from_chars(text.data(), end, number);
-  return result.ec == std::errc() && result.ptr == end;
-}
-
 bool contains(const NumberRange& range, double x) {
   return std::isfinite(x) && (range.min_open ? x > range.min : x >= range.min) &&
          (range.max_open ? x < range.max : x <= range.max);
@@ -163,8 +153,7 @@ bool is_plain(std::string_view text) {
   const auto inner = [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_' || c == '-' || c == '.'; };
   static constexpr std::array<std::string_view, 12> kSpecial{"null", "true", "false", "yes", "no",  "on",
                                                              "off",  "y",    "n",     "nan", "inf", "infinity"};
-  std::string lower(text);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  const std::string lower = lower_case(text);
   return !text.empty() && (letter(text[0]) || text.starts_with("..")) && std::all_of(text.begin(), text.end(), inner) &&
          std::find(kSpecial.begin(), kSpecial.end(), lower) == kSpecial.end();
 }
