@@ -40,8 +40,7 @@ struct CameraView {
 /// The numbers of a view, by name, in the order of the columns.
 std::vector<std::pair<const char*, double>> fields(const CameraView& view) {
   const Eigen::Vector3d t = view.camera_to_world.translation();
-  Eigen::Quaterniond q(view.camera_to_world.linear());
-  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  const Eigen::Quaterniond q = orientation(view.camera_to_world);
   constexpr double kRadian = std::numbers::pi / 180;
   return {{"theta", view.pose.theta_deg},
           {"phi", view.pose.phi_deg},
@@ -157,14 +156,14 @@ void write_views(const Options& options, Console& console) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Command command(
-      "svnet-views",
-      "Says where to bring the camera to see an object from the half-sphere around it, at the distance at "
-      "which it fills 70 % of the picture. The object's place and size are given, or measured in RGB-D "
-      "pictures of the empty table and of the object. Prints CSV: theta and phi in degrees and radians, the "
-      "camera's position in metres, its orientation as a quaternion (docs/camera-convention.md).",
-      "svnet-views camera.json --centre 0.4 0 0.05 --diagonal 0.2 --json views.json --plot views.png\n"
-      "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
+  Command command("svnet-views",
+                  "Says where to bring the camera to see an object from the half-sphere around it, at the distance at "
+                  "which it fills 70 % of the picture. The object's place and size are given, or measured in RGB-D "
+                  "pictures of the empty table and of the object. Prints CSV, unless --csv or --json says where to "
+                  "write: theta and phi in degrees and radians, the "
+                  "camera's position in metres, its orientation as a quaternion (docs/camera-convention.md).",
+                  "svnet-views camera.json --centre 0.4 0 0.05 --diagonal 0.2 --json views.json --plot views.png\n"
+                  "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
   Options options;
   CLI::App& app = command.app();
   app.add_option(

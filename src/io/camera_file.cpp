@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "printable.h"
+#include "base/text.h"
 
 namespace svnet {
 namespace {
@@ -65,7 +65,7 @@ std::string camera_json(const CameraFile& camera) {
                                   {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
   if (camera.camera_to_world) {
     const Eigen::Vector3d t = camera.camera_to_world->translation();
-    const Eigen::Quaterniond q(camera.camera_to_world->linear());
+    const Eigen::Quaterniond q = orientation(*camera.camera_to_world);
     document["pose"] = {{"x_m", t.x()}, {"y_m", t.y()}, {"z_m", t.z()}, {"qx", q.x()},
                         {"qy", q.y()},  {"qz", q.z()},  {"qw", q.w()}};
   }

@@ -61,6 +61,12 @@ Eigen::Isometry3d camera_pose(const Pose& pose, double radius_m, const Eigen::Ve
   return result;
 }
 
+Eigen::Quaterniond orientation(const Eigen::Isometry3d& camera_to_world) {
+  Eigen::Quaterniond q(camera_to_world.linear());
+  if (q.w() < 0) q.coeffs() = -q.coeffs();
+  return q;
+}
+
 Eigen::Vector2d projected_px(const Intrinsics& camera, const Eigen::Vector3d& point) {
   return {camera.cx + camera.fx * point.x() / point.z(), camera.cy + camera.fy * point.y() / point.z()};
 }

@@ -42,6 +42,9 @@ double viewing_radius_m(const Intrinsics&, double diagonal_m);
 /// positive.
 Eigen::Isometry3d camera_pose(const Pose&, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame);
 
+/// The rotation of a pose as files have it: of the two quaternions the one with w >= 0.
+Eigen::Quaterniond orientation(const Eigen::Isometry3d& camera_to_world);
+
 /// The pixel that a point of the optical frame (z > 0) is seen at.
 Eigen::Vector2d projected_px(const Intrinsics&, const Eigen::Vector3d& point_optical_m);
 

@@ -21,6 +21,12 @@ TEST_CASE("a pose list may begin with a byte order mark") {
                                            "0,45\n")));
 }
 
+TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
+  const TemporaryFolder folder;
+  CHECK(read_pose_list(folder.write("poses.csv", "theta,phi,x_m,name\n0,45,1.5,first\n90,60,,\n")) ==
+        std::vector<Pose>{{0, 45}, {90, 60}});
+}
+
 TEST_CASE("a pose list that is none is refused with file and line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) {
@@ -34,11 +40,12 @@ TEST_CASE("a pose list that is none is refused with file and line") {
     }
     return std::string("accepted");
   };
-  const std::string not_two = "' is not two numbers, theta and phi in degrees, with a comma between them";
+  const std::string not_two = "' does not begin with two numbers, theta and phi in degrees";
   CHECK(message("phi,theta\n45,0\n") == ":1: the header is 'phi,theta', expected 'theta,phi'");
   CHECK(message("\n0,45\n") == ":2: the header is '0,45', expected 'theta,phi'");
-  CHECK(message("theta,phi\n0,45\n0 45\n") == ":3: '0 45" + not_two);
-  CHECK(message("theta,phi\n0,45,1\n") == ":2: '0,45,1" + not_two);
+  CHECK(message("theta,phi\n0,45\n0 45\n") == ":3: '0 45' has 1 columns, the header 2");
+  CHECK(message("theta,phi\n0,45,1\n") == ":2: '0,45,1' has 3 columns, the header 2");
+  CHECK(message("theta,phi,x_m\n0,45\n") == ":2: '0,45' has 2 columns, the header 3");
   CHECK(message("theta,phi\n0,\n") == ":2: '0," + not_two);
   CHECK(message("theta,phi\n0,4\x1b"
                 "5\n") == ":2: '0,4?5" + not_two);

@@ -68,7 +68,8 @@ const Row kRows[] = {
      "bad.csv:2: phi 95 is outside [0, 90] degrees"},
     {"poses without a header", "printf '0,45\\n' >bad.csv", PREDICT_POSES,
      "bad.csv:1: the header is '0,45', expected 'theta,phi'"},
-    {"a pose with one angle", "printf 'theta,phi\\n0\\n' >bad.csv", PREDICT_POSES, "bad.csv:2: '0' is not two numbers"},
+    {"a pose with one angle", "printf 'theta,phi\\n0\\n' >bad.csv", PREDICT_POSES,
+     "bad.csv:2: '0' has 1 columns, the header 2"},
     {"empty list of poses", "printf 'theta,phi\\n' >bad.csv", PREDICT_POSES, "bad.csv: holds no pose"},
     // weights
     {"missing weights", "", FEATURES_WITH("none.h5"), "none.h5: no such file"},
