@@ -166,7 +166,8 @@ std::array<double, 3> point(const char* function, const char* argument, const py
   return {values.at(0), values.at(1), values.at(2)};
 }
 
-std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest) {
+std::uint64_t whole_number(const char* function, const char* argument, const py::object& given, std::uint64_t lowest,
+                           std::uint64_t highest) {
   const auto value = if_it_fits([&]() -> std::uint64_t {
     const auto integer = py::reinterpret_steal<py::object>(PyNumber_Index(given.ptr()));
     if (!integer) throw py::error_already_set();
@@ -174,8 +175,9 @@ std::uint64_t whole_number(const char* function, const char* argument, const py:
     if (PyErr_Occurred() != nullptr) throw py::error_already_set();
     return number;
   });
-  if (!value || *value < lowest)
-    fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to 2^64 - 1");
+  if (!value || *value < lowest || *value > highest)
+    fail("[", function, "] ", argument, " is ", repr(given), "; expects a whole number from ", lowest, " to ",
+         highest == ~std::uint64_t{0} ? "2^64 - 1" : std::to_string(highest));
   return *value;
 }
 

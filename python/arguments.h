@@ -10,7 +10,7 @@
 #include <pybind11/pybind11.h>
 
 #include "base/index.h"
-#include "models/image/image.h"
+#include "image/image.h"
 #include "semantics/distances.h"
 #include "view/pose.h"
 
@@ -66,7 +66,7 @@ std::array<double, 3> point(const char* function, const char* argument, const py
 
 /// A Python or NumPy integer in [lowest, 2^64). Throws Error for anything else.
 std::uint64_t whole_number(const char* function, const char* argument, const pybind11::object& given,
-                           std::uint64_t lowest = 0);
+                           std::uint64_t lowest = 0, std::uint64_t highest = ~std::uint64_t{0});
 /// The same in [lowest, 2^63).
 Index count_of(const char* function, const char* argument, const pybind11::object& given, std::uint64_t lowest = 1);
 

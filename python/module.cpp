@@ -49,9 +49,7 @@ void bind_error(py::module_& module) {
 }
 
 void set_threads(const py::object& n) {
-  const std::uint64_t threads = svnet::python::whole_number("set_threads", "n", n, 1);
-  svnet::check(threads <= 1024, "[set_threads] n is ", threads, "; expects 1 to 1024");
-  svnet::python::set_threads(static_cast<int>(threads));
+  svnet::python::set_threads(static_cast<int>(svnet::python::whole_number("set_threads", "n", n, 1, 1024)));
 }
 
 }  // namespace

@@ -1,3 +1,5 @@
+#include <set>
+
 #include "arguments.h"
 #include "base/error.h"
 #include "base/text.h"
@@ -71,6 +73,9 @@ py::dict semantic_scores(const py::object& given_features, const py::object& giv
   SemanticScores scores;
   {
     const Computing computing;
+    const std::set<std::int64_t> categories(category.values().begin(), category.values().end());
+    check(categories.size() >= 3, "[semantic_scores] there are ", categories.size(),
+          " categories, at least 3 are needed");
     const ClusteringProblems problems(category.values(), object.values(), pose.values());
     check(problems.views() == features.rows(), "[semantic_scores] ", features.rows(), " rows of features, but ",
           problems.views(), " categories, objects and poses");

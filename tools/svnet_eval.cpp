@@ -7,9 +7,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run folder holds but its evaluation.json, which may be named again.
-std::vector<fs::path> files_of_run(const fs::path& folder) {
-  std::vector<fs::path> files;
+/// What a run folder holds but its evaluation.json, which may be named again, and the configuration.
+std::vector<fs::path> files_of_run(const fs::path& folder, const fs::path& config) {
+  std::vector<fs::path> files{config};
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().filename() != "evaluation.json") files.push_back(entry.path());
   return files;
@@ -39,18 +39,19 @@ int main(int argc, char** argv) {
     if (folder_given)
       check(fs::exists(source / "config.yaml"), source.string(),
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
-    const Config config = read_config(folder_given ? source / "config.yaml" : source);
+    const fs::path config_file = folder_given ? source / "config.yaml" : source;
+    const Config config = read_config(config_file);
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
-    if (!json.empty()) check_can_be_written(json, files_of_run(folder));
+    if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
     Run run(config, std::move(dataset), folder, console.messages());
     const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);
     const auto tables = run.evaluation(count, json.empty() ? std::optional<fs::path>() : json);
-    const auto sheet = run.contact_sheet(count);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));
     console.result(table_text(tables.at("training"), "Training categories"));
-    if (sheet) console.result(joined("Views of held-out objects: ", sheet->string()));
+    if (const auto sheet = run.contact_sheet(count))
+      console.result(joined("Views of held-out objects: ", sheet->string()));
   });
 }

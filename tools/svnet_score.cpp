@@ -44,10 +44,10 @@ int run(int argc, char** argv, Team& team) {
   auto* samples =
       command.app()
           .add_option("--min-samples", config.scores.min_samples, "Until every view was in so many problems")
-          ->check(CLI::Range(Index{1}, Index{1} << 53));
+          ->check(CLI::Range(Index{1}, Index{1} << 32));
   auto* problems = command.app()
                        .add_option("--problems", config.scores.problems, "So many problems")
-                       ->check(CLI::Range(Index{1}, Index{1} << 53));
+                       ->check(CLI::Range(Index{1}, Index{1} << 32));
   auto* error =
       command.app()
           .add_option("--target-error", config.scores.target_error, "Until every standard error is at most this")
@@ -73,7 +73,8 @@ int run(int argc, char** argv, Team& team) {
         ->check(CLI::Range(Index{0}, Index{1} << 31))
         ->capture_default_str();
   };
-  const auto* fewest = range("--min-categories", config.scores.min_categories, "Fewest categories of a problem");
+  const auto* fewest = range("--min-categories", config.scores.min_categories,
+                             "Fewest categories of a problem, or all where there are fewer");
   range("--max-categories", config.scores.max_categories, "Most categories of a problem; 0: all");
   range("--min-objects", config.scores.min_objects, "Fewest objects of a category in a problem");
   range("--max-objects", config.scores.max_objects, "Most objects of a category in a problem; 0: all");

@@ -22,9 +22,10 @@
  * must come after all other uses of its model. A call uses the threads of the library's own pool where that is free,
  * else the calling thread alone; results do not depend on it.
  *
- * The environment: SVNET_THREADS sets the number of threads to begin with, SVNET_MAX_ISA caps the instruction set;
- * svnet_model_load reports a wrong value of SVNET_MAX_ISA, the first computation one of SVNET_THREADS, both as
- * SVNET_INVALID_ARGUMENT.
+ * The environment: SVNET_THREADS sets the number of threads to begin with, SVNET_MAX_ISA caps the instruction set.
+ * svnet_model_load reads SVNET_PRECISION, "f32" or "bf16" (faster and less exact, for processors with AVX512-BF16), and
+ * SVNET_CONVOLUTION, "direct" or "winograd" (the default is whichever is faster). svnet_model_load reports a wrong
+ * value, of SVNET_THREADS the first call that computes, as SVNET_INVALID_ARGUMENT.
  */
 #ifndef SVNET_SVNET_H
 #define SVNET_SVNET_H

@@ -5,14 +5,15 @@
 namespace svnet {
 
 Progress::Progress(const Messages& messages, std::string task, Index total)
-    : messages_(messages), task_(std::move(task)), total_(total), start_(Clock::now()), last_(start_) {}
+    : messages_(messages), task_(std::move(task)), total_(total), start_(Clock::now()) {}
 
 double Progress::seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
 
 void Progress::update(Index done) {
   if (!messages_.progress) return;
   const auto now = Clock::now();
-  if (done < total_ && now - last_ < std::chrono::milliseconds(100)) return;
+  const bool is_last = total_ > 0 && done >= total_;
+  if (!is_last && last_ && now - *last_ < std::chrono::milliseconds(100)) return;
   last_ = now;
   messages_.progress(task_, done, total_, std::chrono::duration<double>(now - start_).count());
 }

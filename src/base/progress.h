@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -17,7 +18,8 @@ struct Messages {
   std::function<void(std::string_view task, Index done, Index total, double seconds)> progress;
 };
 
-/// Progress of one task, reported to `messages` at most ten times a second and once at the end.
+/// Progress of one task, reported to `messages` at once, then at most ten times a second, and at the end of a known
+/// total.
 class Progress {
  public:
   Progress(const Messages& messages, std::string task, Index total);
@@ -30,7 +32,8 @@ class Progress {
   const Messages& messages_;
   std::string task_;
   Index total_;
-  Clock::time_point start_, last_;
+  Clock::time_point start_;
+  std::optional<Clock::time_point> last_;
 };
 
 }  // namespace svnet

@@ -79,11 +79,22 @@ std::string percent(double share) {
   return text;
 }
 
-std::string without_control_characters(std::string_view text) {
-  std::string clean(text);
-  for (char& c : clean)
-    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = ' ';
-  return clean;
+char printable(char c) {
+  if (c == '\t' || c == '\n' || c == '\r') return ' ';
+  return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;
+}
+
+std::string printable(std::string_view text) {
+  std::string result(text);
+  for (char& c : result) c = printable(c);
+  return result;
+}
+
+std::string lower_case(std::string_view text) {
+  std::string result(text);
+  for (char& c : result)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return result;
 }
 
 bool natural_less(std::string_view a, std::string_view b) {

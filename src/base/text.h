@@ -1,7 +1,9 @@
 #pragma once
+#include <charconv>
 #include <span>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace svnet {
@@ -18,9 +20,21 @@ std::string joined_with(std::string_view separator, std::span<const std::string>
 /// "99.5 %" of a share of 0.995.
 std::string percent(double share);
 
-/// Control characters become spaces: what a file's name or a library's message brings along must not reach a terminal,
-/// nor break a line in two.
-std::string without_control_characters(std::string_view text);
+/// What of a file or of a library's message may reach a terminal: tabs and ends of lines become spaces, other control
+/// characters '?'.
+char printable(char c);
+std::string printable(std::string_view text);
+
+/// With A to Z in lower case.
+std::string lower_case(std::string_view text);
+
+/// Whether all of `text` is a number, which `number` receives then. In any locale; nothing may stand around it.
+template <class Number>
+bool parse_number(std::string_view text, Number& number) {
+  const char* end = text.data() + text.size();
+  const auto result = std::from_chars(text.data(), end, number);
+  return result.ec == std::errc() && result.ptr == end;
+}
 
 /// Whether `text` is well-formed UTF-8 (RFC 3629) without NUL, so that it can be stored and given to anyone.
 bool is_plain_utf8(std::string_view text);

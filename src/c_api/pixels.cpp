@@ -7,9 +7,6 @@
 namespace svnet {
 namespace {
 
-/// As many pixels as io/image_file.h reads.
-constexpr Index kMostPixels = Index{64} << 20;
-
 struct Layout {
   std::size_t bytes;                  // of a pixel
   std::array<std::size_t, 3> offset;  // of red, green, blue

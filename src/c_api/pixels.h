@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "models/image/image.h"
+#include "image/image.h"
 #include "svnet/svnet.h"
 
 namespace svnet {

@@ -7,8 +7,11 @@
 #include <vector>
 
 #include "base/cpu.h"
-#include "base/parallel.h"
+#include "base/fixed_threads.h"
+#include "base/text.h"
 #include "base/version.h"
+#include "nn/kernels/convolution_choice.h"
+#include "nn/kernels/precision.h"
 #include "pixels.h"
 #include "predict/predictor.h"
 
@@ -25,8 +28,7 @@ thread_local char last_error[1024] = "";
 
 svnet_status failed(svnet_status status, const char* text) {
   std::size_t length = 0;
-  for (; length + 1 < sizeof last_error && text[length] != '\0'; ++length)
-    last_error[length] = static_cast<unsigned char>(text[length]) < 0x20 ? ' ' : text[length];
+  for (; length + 1 < sizeof last_error && text[length] != '\0'; ++length) last_error[length] = printable(text[length]);
   last_error[length] = '\0';
   return status;
 }
@@ -46,6 +48,23 @@ svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
   } catch (...) {
     return failed(SVNET_INTERNAL_ERROR, "unknown exception");
   }
+}
+
+/// guarded, for bodies that compute: svnet_set_threads waits for them.
+template <class Body>
+svnet_status computed(svnet_status user_error, const Body& body) noexcept {
+  return guarded(user_error, [&] {
+    const FixedThreads threads;
+    body();
+  });
+}
+
+/// Throws Error for a variable whose value is none, or not for this machine.
+void check_environment() {
+  static std::once_flag once;
+  std::call_once(once, cap_from_environment);
+  kernels::convolution_from_environment();
+  kernels::check_available(kernels::precision_from_environment());
 }
 
 void check_given(const void* pointer, const char* function, const char* name) {
@@ -76,7 +95,7 @@ const char* svnet_version(void) { return kVersion; }
 const char* svnet_last_error(void) { return last_error; }
 
 svnet_status svnet_set_threads(int threads) {
-  return guarded(SVNET_INVALID_ARGUMENT, [&] { Parallel::shared().resize(threads); });
+  return guarded(SVNET_INVALID_ARGUMENT, [&] { change_threads(threads); });
 }
 
 svnet_status svnet_model_load(const char* path, svnet_model** model) {
@@ -84,11 +103,10 @@ svnet_status svnet_model_load(const char* path, svnet_model** model) {
     check_given(model, "svnet_model_load", "model");
     *model = nullptr;
     check_given(path, "svnet_model_load", "path");
-    static std::once_flag once;
-    std::call_once(once, cap_from_environment);
+    check_environment();
   });
   if (arguments != SVNET_OK) return arguments;
-  return guarded(SVNET_INVALID_MODEL, [&] { *model = new svnet_model{Predictor(std::filesystem::path(path))}; });
+  return computed(SVNET_INVALID_MODEL, [&] { *model = new svnet_model{Predictor(std::filesystem::path(path))}; });
 }
 
 void svnet_model_free(svnet_model* model) { delete model; }
@@ -99,7 +117,7 @@ size_t svnet_feature_count(const svnet_model* model) {
 
 svnet_status svnet_embed(const svnet_model* model, const uint8_t* pixels, int32_t height, int32_t width,
                          size_t stride_bytes, svnet_pixel_format format, float* features) {
-  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
     check_given(model, "svnet_embed", "model");
     check_given(pixels, "svnet_embed", "pixels");
     check_given(features, "svnet_embed", "features");
@@ -110,7 +128,7 @@ svnet_status svnet_embed(const svnet_model* model, const uint8_t* pixels, int32_
 
 svnet_status svnet_score(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
                          float* scores) {
-  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
     if (count > 0) check_given(scores, "svnet_score", "scores");
     const std::vector<float> values = scores_of("svnet_score", model, features, poses_deg, count);
     std::copy(values.begin(), values.end(), scores);
@@ -119,7 +137,7 @@ svnet_status svnet_score(const svnet_model* model, const float* features, const 
 
 svnet_status svnet_best_view(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
                              size_t* best, float* score) {
-  return guarded(SVNET_INVALID_ARGUMENT, [&] {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
     check_given(best, "svnet_best_view", "best");
     check(count > 0, "[svnet_best_view] count is 0, there is no pose to choose from");
     const std::vector<float> values = scores_of("svnet_best_view", model, features, poses_deg, count);

@@ -58,7 +58,7 @@ DepthImage decode_npy(const std::string& name, Bytes file) {
     }
   }
   check(two, name, ": holds an array that is not two-dimensional, expected (height, width)");
-  image_of_size(name, image.height, image.width);
+  check_image_size(name, image.height, image.width);
   const auto count = static_cast<std::size_t>(image.height * image.width),
              width = is_double ? sizeof(double) : sizeof(float);
   if (file.size() - prefix - length != count * width) damaged("its size is not that of its array");

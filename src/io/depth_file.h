@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <span>
 
-#include "models/image/depth_image.h"
+#include "image/depth_image.h"
 
 namespace svnet {
 

@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
-#include "printable.h"
 
 namespace svnet {
 namespace {
@@ -55,12 +55,6 @@ void check_features(const std::string& file, const Features& features) {
 }
 
 }  // namespace
-
-FeaturesOrigin read_features_origin(const std::filesystem::path& path) {
-  FeaturesOrigin origin;
-  read_origin(Hdf5File::open(path), origin);
-  return origin;
-}
 
 Features read_features(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);

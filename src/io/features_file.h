@@ -34,9 +34,6 @@ struct Features : FeaturesOrigin {
 /// are finite.
 Features read_features(const std::filesystem::path& path);
 
-/// The attributes alone, for deciding whether features can be used again.
-FeaturesOrigin read_features_origin(const std::filesystem::path& path);
-
 /// Replaces the file as a whole. Throws Error where read_features would.
 void write_features(const std::filesystem::path& path, const Features& features);
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "models/image/image.h"
+#include "image/image.h"
 
 // The codecs behind io/image_file.h. Each takes the whole file and throws Error for what it cannot decode completely;
 // `name` begins the message.
@@ -39,7 +39,9 @@ std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
 /// Whether `expected` is at `offset`.
 bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);
 
-/// An image with room for its pixels. Throws Error above 64 megapixels.
+/// Throws Error for a picture without pixels, or with more than 64 megapixels.
+void check_image_size(const std::string& name, Index height, Index width);
+/// An image with room for its pixels. Throws Error as check_image_size does.
 Image image_of_size(const std::string& name, Index height, Index width);
 
 /// The Error of a file that the codec gave up on, with its reason.

@@ -16,7 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Index kMaximumPixels = 64'000'000;
 constexpr std::uintmax_t kMaximumFileSize = std::uintmax_t{1} << 30;
 
 }  // namespace
@@ -48,10 +47,14 @@ bool has_bytes(Bytes file, std::size_t offset, std::string_view expected) {
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
 }
 
-Image image_of_size(const std::string& name, Index height, Index width) {
+void check_image_size(const std::string& name, Index height, Index width) {
   check(height > 0 && width > 0, name, ": has no pixels (", width, "x", height, ")");
-  check(height <= kMaximumPixels / width, name, ": has ", width, "x", height,
+  check(height <= kMostPixels / width, name, ": has ", width, "x", height,
         " pixels, more than the 64 megapixels that are read; make it smaller");
+}
+
+Image image_of_size(const std::string& name, Index height, Index width) {
+  check_image_size(name, height, width);
   return {height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * width * 3))};
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-#include "models/image/image.h"
+#include "image/image.h"
 
 namespace svnet {
 

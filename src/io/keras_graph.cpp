@@ -145,11 +145,6 @@ Parameters matched(const KerasWeightsFile& file, const Graph& graph, const std::
 
 }  // namespace
 
-Parameters read_keras_parameters(const std::filesystem::path& path, const Graph& graph, NodeId output,
-                                 KerasLoadReport* report) {
-  return matched(KerasWeightsFile(path), graph, weighted_layers(graph, output), output, report);
-}
-
 Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
                              KerasLoadReport* report) {
   const BackboneKind& kind = backbone_kind(name);

@@ -13,15 +13,11 @@ struct KerasLoadReport {
   std::vector<std::string> unused;  // layers of the file that the output does not need: a top that was not asked for
 };
 
-/// The parameters of `graph` up to `output` from a Keras file, legacy layout or Keras 3. Layers are matched by position
-/// among those with weights, in the order of Keras' model.layers (keras_order); Keras 3 files by class and counter in
-/// the same order. Shapes are checked; a name in the file that belongs to another layer of the graph means that the
-/// order is wrong. Throws Error that names file and layers for anything missing, unexpected or of another shape.
-Parameters read_keras_parameters(const std::filesystem::path& path, const Graph& graph, NodeId output,
-                                 KerasLoadReport* report = nullptr);
-
-/// The backbone with the weights of the file. All its layers are checked, also those of the top where the file has one;
-/// only the numbers that the output needs are read.
+/// The backbone with the weights of a Keras file, legacy layout or Keras 3. Layers are matched by position among those
+/// with weights, in the order of Keras' model.layers (keras_order); Keras 3 files by class and counter in the same
+/// order. All layers are checked, also those of the top where the file has one; only the numbers that the output needs
+/// are read. Throws Error that names file and layers for anything missing, unexpected or of another shape; a name in
+/// the file that belongs to another layer means that the order is wrong.
 Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
                              KerasLoadReport* report = nullptr);
 

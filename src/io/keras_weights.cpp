@@ -5,7 +5,7 @@
 #include <set>
 
 #include "base/error.h"
-#include "printable.h"
+#include "base/text.h"
 
 namespace svnet {
 namespace {

@@ -12,10 +12,10 @@
 #include <assimp/scene.h>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "image_codecs.h"
 #include "io/image_file.h"
 #include "ply_check.h"
-#include "printable.h"
 
 namespace svnet {
 namespace {
@@ -57,12 +57,7 @@ Material material_of(const aiScene& scene, const aiMaterial& from, const fs::pat
 }
 
 /// In lower case.
-std::string extension_of(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? c + 32 : c; });
-  return extension;
-}
+std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
 
 std::string file_contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);

@@ -4,7 +4,7 @@
 
 #include "io/graph_json.h"
 #include "io/tensor_file.h"
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 
 namespace svnet {
 namespace {
@@ -36,6 +36,24 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
       file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
 }
 
+void check_fits_together(const Model& model) {
+  check(model.orientations == 1 || model.orientations == kOrientations, "there are ", model.orientations,
+        " orientations, expected 1 or ", kOrientations);
+  const Preprocessing& p = model.preprocessing;
+  check(model.orientations == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
+        " cannot be turned; only square ones can");
+  const Graph &backbone = model.backbone_graph, &head = model.head;
+  const auto pictures = backbone.inputs(), inputs = head.inputs();
+  check(pictures.size() == 1 && backbone.node(pictures[0]).shape == Shape{p.height, p.width, 3},
+        "the backbone does not take pictures of ", p.height, "x", p.width, ", as preprocessing makes them");
+  const Shape& features = backbone.node(backbone.find(model.backbone_output)).shape;
+  check(inputs.size() == 2 && head.node(inputs[0]).shape == Shape{element_count(features)} &&
+            head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&
+            head.node(head.output()).shape == Shape{1},
+        "the head does not take the backbone's ", element_count(features),
+        " features and the angles, or gives more than one score");
+}
+
 }  // namespace
 
 void write_model(const std::filesystem::path& path, const Model& model) {
@@ -56,29 +74,22 @@ void write_model(const std::filesystem::path& path, const Model& model) {
 
 Model read_model(const std::filesystem::path& path) {
   const TensorFile file = TensorFile::read(path, "model");
+  const json backbone = file.get<json>("backbone"), head = file.get<json>("head"), angles = file.get<json>("angles"),
+             preprocessing = file.get<json>("preprocessing");
   Model model;
+  model.input_fingerprint = file.get<std::string>("input_fingerprint");
   try {
-    const json backbone = file.get<json>("backbone"), head = file.get<json>("head");
     model.backbone = backbone.at("name").get<std::string>();
     model.backbone_output = backbone.at("output").get<std::string>();
     model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
-    model.preprocessing = preprocessing_from_json(file.get<json>("preprocessing"));
+    model.preprocessing = preprocessing_from_json(preprocessing);
     model.head = graph_from_json(head.at("graph"), "head");
-    model.angles = angle_encoding_named(file.get<json>("angles").at("encoding").get<std::string>());
+    model.angles = angle_encoding_named(angles.at("encoding").get<std::string>());
     model.orientations = head.value("orientations", 1);
-    check(model.orientations == 1 || model.orientations == kOrientations, "there are ", model.orientations,
-          " orientations, expected 1 or ", kOrientations);
-    check(model.orientations == 1 || model.preprocessing.height == model.preprocessing.width, "pictures of ",
-          model.preprocessing.height, "x", model.preprocessing.width, " cannot be turned; only square ones can");
-    model.input_fingerprint = file.get<std::string>("input_fingerprint");
-    const Shape& features = model.backbone_graph.node(model.backbone_graph.find(model.backbone_output)).shape;
-    const auto inputs = model.head.inputs();
-    check(inputs.size() == 2 && model.head.node(inputs[0]).shape == Shape{element_count(features)} &&
-              model.head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&
-              model.head.node(model.head.output()).shape == Shape{1},
-          "the head does not take the backbone's ", element_count(features),
-          " features and the angles, or gives more than one score");
-  } catch (const std::exception& error) {
+    check_fits_together(model);
+  } catch (const Error& error) {
+    fail(path.string(), ": ", error.what());
+  } catch (const json::exception& error) {
     fail(path.string(), ": ", error.what());
   }
   model.backbone_parameters = file.parameters("backbone", model.backbone_graph);

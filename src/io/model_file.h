@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "models/image/preprocessing.h"
+#include "models/preprocessing.h"
 #include "models/sv_net.h"
 #include "nn/graph/parameters.h"
 

@@ -3,13 +3,12 @@
 #include "ply_check.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
-#include "printable.h"
+#include "base/text.h"
 
 namespace svnet {
 namespace {
@@ -63,12 +62,6 @@ std::string_view take_word(std::string_view& line) {
   return word;
 }
 
-/// Whether all of `word` is a whole number of at least 0.
-bool parse(std::string_view word, std::uint64_t& number) {
-  const auto result = std::from_chars(word.data(), word.data() + word.size(), number);
-  return result.ec == std::errc() && result.ptr == word.data() + word.size();
-}
-
 /// The bytes of a value of a type, 0 where there is no such type.
 std::size_t bytes_of(std::string_view type) {
   for (const auto& [name, bytes] :
@@ -108,7 +101,7 @@ Header take_header(const std::string& name, std::string_view& file) {
                                                          : Format::big_endian;
     } else if (key == "element") {
       Element element{std::string(take_word(words)), 0, {}};
-      check(parse(take_word(words), element.count), name, ": '", printable(line), "' has no number of elements");
+      check(parse_number(take_word(words), element.count), name, ": '", printable(line), "' has no number of elements");
       check(element.count <= size, name, ": promises ", element.count, " of '", printable(element.name), "' in ", size,
             " bytes; is the file incomplete?");
       header.elements.push_back(std::move(element));
@@ -131,7 +124,7 @@ class TextBody {
     std::string_view line = take_line(rest_);
     for (const Property& property : element.properties) {
       std::uint64_t values = 1;
-      if (property.length_bytes > 0 && !parse(take_word(line), values)) return false;
+      if (property.length_bytes > 0 && !parse_number(take_word(line), values)) return false;
       for (; values > 0; --values)
         if (take_word(line).empty()) return false;
     }

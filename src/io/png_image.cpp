@@ -109,7 +109,7 @@ Grey16 decode_grey16_png(const std::string& name, Bytes file) {
   PngDecoder decoder(file);
   if (!decoder.read_header()) fail_damaged(name, "PNG", decoder.reason());
   check(decoder.is_grey16(), name, ": is a PNG of another kind, expected 16-bit grey, depth in millimetres");
-  image_of_size(name, decoder.height(), decoder.width());
+  check_image_size(name, decoder.height(), decoder.width());
   Grey16 image{decoder.height(), decoder.width(), {}};
   image.levels.resize(static_cast<std::size_t>(image.height * image.width));
   std::vector<std::uint8_t*> rows(static_cast<std::size_t>(image.height));

@@ -14,7 +14,6 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/atomic_file.h"
-#include "printable.h"
 #include "safetensors_header.h"
 
 namespace svnet {

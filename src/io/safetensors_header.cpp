@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "base/error.h"
-#include "printable.h"
+#include "base/text.h"
 
 namespace svnet {
 namespace {

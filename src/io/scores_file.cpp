@@ -5,9 +5,9 @@
 
 #include "base/error.h"
 #include "base/sha256.h"
+#include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
-#include "printable.h"
 
 namespace svnet {
 namespace {
@@ -82,12 +82,6 @@ std::string checksum(const ScoresSnapshot& snapshot) {
 }
 
 }  // namespace
-
-ScoresOrigin read_scores_origin(const std::filesystem::path& path) {
-  ScoresOrigin origin;
-  read_origin(Hdf5File::open(path), origin);
-  return origin;
-}
 
 Scores read_scores(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);

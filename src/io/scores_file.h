@@ -39,9 +39,6 @@ struct Scores : ScoresOrigin {
 /// count, which is at most that of the problems, have a global score.
 Scores read_scores(const std::filesystem::path& path);
 
-/// The attributes alone, for deciding whether scores can be used again.
-ScoresOrigin read_scores_origin(const std::filesystem::path& path);
-
 /// Replaces the file as a whole. Throws Error where read_scores would.
 void write_scores(const std::filesystem::path& path, const Scores& scores);
 

@@ -13,7 +13,6 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "io/file_hash.h"
-#include "printable.h"
 
 namespace svnet {
 namespace {
@@ -61,9 +60,7 @@ std::vector<fs::path> subfolders(const fs::path& folder, const char* what, const
 }
 
 bool has_view_extension(const fs::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  const std::string extension = lower_case(path.extension().string());
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 

@@ -3,7 +3,7 @@
 #include <span>
 #include <string>
 
-#include "models/image/image.h"
+#include "image/image.h"
 #include "models/registry.h"
 #include "nn/graph/parameters.h"
 #include "nn/runtime/inference.h"

@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "models/image/preprocessing.h"
+#include "models/preprocessing.h"
 #include "nn/graph/graph.h"
 
 namespace svnet {

@@ -5,6 +5,7 @@
 
 #include <mpi.h>
 
+#include "base/error.h"
 #include "launcher.h"
 
 namespace svnet {
@@ -14,7 +15,10 @@ namespace {
 class MpiTeam : public Team {
  public:
   MpiTeam() {
-    MPI_Init(nullptr, nullptr);
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    check(provided >= MPI_THREAD_FUNNELED,
+          "[mpi] this MPI allows no other threads in its processes; use another build");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }

@@ -5,7 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 
 namespace svnet {
 namespace {

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "image/image.h"
 #include "io/model_file.h"
-#include "models/image/image.h"
 #include "nn/runtime/inference.h"
 #include "view/pose.h"
 

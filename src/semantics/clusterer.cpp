@@ -12,10 +12,6 @@ std::variant<Agglomerative, KMeans> algorithm(const ClusteringOptions& options, 
 
 }  // namespace
 
-std::string_view clustering_name(const ClusteringOptions& options) {
-  return options.method == Method::kmeans ? "kmeans" : linkage_name(options.linkage);
-}
-
 Clusterer::Clusterer(const ClusteringOptions& options, Index max_points, Index max_clusters)
     : algorithm_(algorithm(options, max_points, max_clusters)) {}
 

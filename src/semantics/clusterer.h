@@ -1,8 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string>
-#include <string_view>
 #include <variant>
 
 #include "semantics/agglomerative.h"
@@ -17,9 +15,6 @@ struct ClusteringOptions {
   KMeansOptions kmeans{};
   Index dimension = 1;  ///< of the features; k-means' tolerance needs it
 };
-
-/// A linkage's name, or "kmeans".
-std::string_view clustering_name(const ClusteringOptions& options);
 
 /// The clustering algorithm that the options name, and the memory it needs. Not thread-safe: one object per thread.
 class Clusterer {

@@ -8,7 +8,7 @@
 namespace svnet {
 
 /// What the problems solved so far add up to, per view. Scores are in 64-bit fixed point with 32 binary places, so that
-/// sums over 2^32 problems fit and do not depend on the order of the additions: states of any parts of the work
+/// sums over kMostProblems fit and do not depend on the order of the additions: states of any parts of the work
 /// (threads, ranks, sessions) merge into the same bits.
 struct ScoreSums {
   struct View {
@@ -23,6 +23,7 @@ struct ScoreSums {
 
     bool operator==(const View&) const = default;
   };
+  static constexpr std::uint64_t kMostProblems = std::uint64_t{1} << 32;
   std::uint64_t problems = 0;  ///< numbers 0 to problems - 1 are in; in a part of the work, how many are
   std::vector<View> views;
 

@@ -18,6 +18,12 @@ void check_rules(const ScoreOptions& options) {
   check(options.target_error >= 0, "[scores] target_error is ", options.target_error, "; it must not be negative");
   check(options.problems > 0 || options.min_samples > 0 || options.target_error > 0,
         "[scores] nothing says when to stop; give problems, min_samples or target_error");
+  const auto check_most = [](const char* name, std::uint64_t wanted) {
+    check(wanted <= ScoreSums::kMostProblems, "[scores] ", name, " is ", wanted, "; the sums hold ",
+          ScoreSums::kMostProblems, " problems");
+  };
+  check_most("problems", options.problems);
+  check_most("min_samples", options.min_samples);
 }
 
 bool enough_samples(const ClusteringProblems& problems, const ScoreOptions& options, const ScoreSums& sums) {
@@ -90,6 +96,9 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
         done == 0 ? kFirstStep : static_cast<std::uint64_t>(static_cast<double>(done) / progress.seconds() / 4);
     std::uint64_t last = std::min(next_look(sums.problems), sums.problems + std::max<std::uint64_t>(in_a_quarter, 1));
     if (options.problems > 0) last = std::min(last, options.problems);
+    check(last <= ScoreSums::kMostProblems, "[scores] ", sums.problems,
+          " problems are solved and the rules ask for more; ", "the sums hold ", ScoreSums::kMostProblems,
+          ": raise target_error or lower min_samples");
     last = team.from_first(last);
     const Share share = share_of(team, sums.problems, last);
     solver.solve(share.first, share.last, step);

@@ -1,6 +1,6 @@
 #pragma once
 #include "base/random.h"
-#include "models/image/image.h"
+#include "image/image.h"
 
 namespace svnet {
 

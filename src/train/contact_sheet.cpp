@@ -5,8 +5,8 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "image/resize.h"
 #include "io/image_file.h"
-#include "models/image/resize.h"
 
 namespace svnet {
 namespace {

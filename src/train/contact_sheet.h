@@ -1,7 +1,7 @@
 #pragma once
 #include <span>
 
-#include "models/image/image.h"
+#include "image/image.h"
 #include "train/evaluation.h"
 
 namespace svnet {

@@ -19,18 +19,18 @@ namespace {
 
 std::string describe_features(const std::filesystem::path& file) {
   const Features f = read_features(file);
-  return joined(
-      "features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ",
-      without_control_characters(f.backbone), ", layer ", without_control_characters(f.output), "\n  preprocessing  ",
-      without_control_characters(f.preprocessing), "\n  weights        ", without_control_characters(f.weights_sha256),
-      "\n  dataset        ", without_control_characters(f.dataset_fingerprint), "\n  first view     ",
-      without_control_characters(f.paths.front()), "\n  last view      ", without_control_characters(f.paths.back()));
+  return joined("features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ",
+                printable(f.backbone), ", layer ", printable(f.output), "\n  preprocessing  ",
+                printable(f.preprocessing), "\n  weights        ", printable(f.weights_sha256), "\n  dataset        ",
+                printable(f.dataset_fingerprint), "\n  fingerprint    ", printable(f.input_fingerprint),
+                "\n  first view     ", printable(f.paths.front()), "\n  last view      ", printable(f.paths.back()));
 }
 
 std::string describe_scores(const std::filesystem::path& file) {
   const Scores s = read_scores(file);
   std::uint64_t least = ~std::uint64_t{0}, most = 0;
-  double error = 0;
+  double error = 0, stability = 0;
+  std::size_t ranked = 0;
   std::size_t excluded = 0;
   for (std::size_t i = 0; i < s.count.size(); ++i) {
     if (s.count[i] == 0) {
@@ -40,12 +40,17 @@ std::string describe_scores(const std::filesystem::path& file) {
     least = std::min(least, s.count[i]);
     most = std::max(most, s.count[i]);
     if (std::isfinite(s.standard_error[i])) error = std::max(error, s.standard_error[i]);
+    if (!std::isfinite(s.rank_stability[i])) continue;
+    ++ranked;
+    stability += s.rank_stability[i];
   }
   return joined("semantic scores of ", s.paths.size(), " views\n  problems        ", s.problems, ", seed ", s.seed,
-                "\n  sampler         ", without_control_characters(s.sampler), "\n  clustering      ",
-                without_control_characters(s.clustering), ", metric ", without_control_characters(s.metric),
-                "\n  views without   ", excluded, "\n  problems a view ",
-                most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error);
+                "\n  sampler         ", printable(s.sampler), "\n  clustering      ", printable(s.clustering),
+                ", metric ", printable(s.metric), "\n  views without   ", excluded, "\n  problems a view ",
+                most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error,
+                "\n  rank stability  ",
+                ranked == 0 ? std::string("none") : joined(stability / static_cast<double>(ranked), " on average"),
+                "\n  fingerprint     ", printable(s.input_fingerprint));
 }
 
 std::string describe_snapshot(const std::filesystem::path& file) {
@@ -55,7 +60,7 @@ std::string describe_snapshot(const std::filesystem::path& file) {
 
 void add_layer(std::ostringstream& text, const std::string& name, const std::vector<KerasArray>& arrays, Index& count) {
   if (arrays.empty()) return;
-  text << "\n  " << without_control_characters(name) << ":";
+  text << "\n  " << printable(name) << ":";
   for (const auto& array : arrays) {
     text << " " << to_string(array.shape);
     count += element_count(array.shape);
@@ -77,10 +82,10 @@ std::string describe_safetensors(const std::filesystem::path& file) {
   std::ostringstream text;
   text << "safetensors, " << f.tensors().size() << " tensors";
   for (const auto& [key, value] : f.metadata())
-    text << "\n  metadata '" << without_control_characters(key)
-         << "': " << without_control_characters(value.size() > 400 ? value.substr(0, 400) + " …" : value);
+    text << "\n  metadata '" << printable(key)
+         << "': " << printable(value.size() > 400 ? value.substr(0, 400) + " …" : value);
   for (const auto& tensor : f.tensors())
-    text << "\n  " << without_control_characters(tensor.name) << ": " << tensor.dtype << " " << to_string(tensor.shape);
+    text << "\n  " << printable(tensor.name) << ": " << tensor.dtype << " " << to_string(tensor.shape);
   return text.str();
 }
 

@@ -4,7 +4,7 @@
 
 #include "base/progress.h"
 #include "io/view_dataset.h"
-#include "models/image/preprocessing.h"
+#include "models/preprocessing.h"
 #include "nn/tensor.h"
 #include "train/augmentation.h"
 

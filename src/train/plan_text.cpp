@@ -23,7 +23,7 @@ std::string fixed(double value, int digits) {
 
 Row row(const StepReport& step) {
   const bool computes = step.flops > 0 && step.milliseconds > 0;
-  return {without_control_characters(step.layer),
+  return {printable(step.layer),
           step.kernel,
           step.flops > 0 ? fixed(step.flops / 1e6, 2) : "-",
           fixed(step.bytes / 1e6, 2),
@@ -72,8 +72,8 @@ std::string model_plan(const std::filesystem::path& file, Index batch) {
   const Graph& graph = model.backbone_graph;
   const Inference backbone(graph, model.backbone_parameters, graph.find(model.backbone_output));
   const Inference head(model.head, model.head_parameters, model.head.output());
-  return joined(without_control_characters(model.backbone), " to ", without_control_characters(model.backbone_output),
-                "\n", plan_text(backbone, batch), "\n\nSV-net\n", plan_text(head, batch));
+  return joined(printable(model.backbone), " to ", printable(model.backbone_output), "\n", plan_text(backbone, batch),
+                "\n\nSV-net\n", plan_text(head, batch));
 }
 
 }  // namespace svnet

@@ -11,7 +11,7 @@ namespace svnet {
 std::string plan_text(const Inference& network, Index batch);
 
 /// The plan of a backbone with random weights up to `layer` ("" for its pooled output), or of the two networks of a
-/// model file. Throws Error where `what` is neither the name of a backbone nor a model file.
+/// model file. Throw Error for an unknown backbone or layer, and for what is no model file.
 std::string backbone_plan(const std::string& name, const std::string& layer, Index batch);
 std::string model_plan(const std::filesystem::path& file, Index batch);
 

@@ -7,9 +7,10 @@
 #include "base/text.h"
 #include "io/atomic_file.h"
 #include "io/checkpoint.h"
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 #include "models/trained_graph.h"
-#include "nn/graph/run.h"
+#include "predict/predictor.h"
+#include "train/epoch_order.h"
 #include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
@@ -172,7 +173,7 @@ std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeI
 void Run::train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
                      Resume resume) {
   TrainerOptions options = trainer_options(config_, model.input_fingerprint);
-  options.schedule = schedule(config_.training, Trainer(graph, training, validation, options, team_).steps_per_epoch());
+  options.schedule = schedule(config_.training, batch_count(options.batch_size, training.size()));
   Trainer trainer(graph, training, validation, options, team_);
   const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
   std::optional<Checkpoint> from;
@@ -216,8 +217,8 @@ std::vector<double> Run::predicted_scores(const Model& model) {
                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
                                                                     model.backbone_graph.find(model.backbone_output)),
                                         PictureInputs::Options{.orientations = model.orientations, .flat = true});
-  const Index dimension = element_count(inputs->shape()), angles = angle_count(model.angles);
-  const int orientations = model.orientations;
+  const Predictor predictor(model);
+  const Index dimension = predictor.feature_count();
   const auto poses = std::span(dataset_.poses);
   std::vector<double> predicted;
   constexpr std::size_t kPoses = 16;  // whose pictures are looked at together
@@ -225,28 +226,19 @@ std::vector<double> Run::predicted_scores(const Model& model) {
     const auto part = poses.subspan(first, std::min(kPoses, poses.size() - first));
     std::vector<Index> top_views;
     for (const auto& pose : part)
-      for (int orientation = 0; orientation < orientations; ++orientation)
-        top_views.push_back(pose.top_view * orientations + orientation);
+      for (int orientation = 0; orientation < model.orientations; ++orientation)
+        top_views.push_back(pose.top_view * model.orientations + orientation);
     const Tensor features = inputs->batch(top_views);
     for (std::size_t p = 0; p < part.size(); ++p) {
-      // One row per orientation and view: the features of the pose's top view, and the view's angles.
-      const auto& pose = part[p];
-      const Index rows = orientations * pose.view_count;
-      Tensor top = Tensor::empty({rows, dimension}), encoded = Tensor::empty({rows, angles});
-      for (Index row = 0; row < rows; ++row) {
-        const Index orientation = row / pose.view_count;
-        const View& view = dataset_.views[static_cast<std::size_t>(pose.first_view + row % pose.view_count)];
-        std::copy_n(features.data<float>() + (static_cast<Index>(p) * orientations + orientation) * dimension,
-                    dimension, top.data<float>() + row * dimension);
-        encode_angles(model.angles, oriented_theta_deg(static_cast<int>(orientation), view.theta_deg), view.phi_deg,
-                      encoded.data<float>() + row * angles);
-      }
-      const Tensor score = infer(model.head, model.head_parameters, {top, encoded}, {model.head.output()})[0];
-      for (Index i = 0; i < pose.view_count; ++i) {
-        double sum = 0;
-        for (Index row = i; row < rows; row += pose.view_count) sum += score.data<float>()[row];
-        predicted.push_back(sum / orientations);
-      }
+      Tensor top = Tensor::empty({1, dimension});
+      std::copy_n(features.data<float>() + static_cast<Index>(p) * dimension, dimension, top.data<float>());
+      std::vector<Pose> candidates;
+      for (const View& view :
+           std::span(dataset_.views)
+               .subspan(static_cast<std::size_t>(part[p].first_view), static_cast<std::size_t>(part[p].view_count)))
+        candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+      const std::vector<float> scores = predictor.scores(top, candidates);
+      predicted.insert(predicted.end(), scores.begin(), scores.end());
     }
   }
   return predicted;

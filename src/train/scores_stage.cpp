@@ -42,8 +42,8 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
   std::vector<Index> objects(dataset.categories.size(), 0);
   for (const auto& each : dataset.objects) ++objects[static_cast<std::size_t>(each.category)];
   for (std::size_t c = 0; c < objects.size(); ++c)
-    check(excluded[c] || objects[c] >= config.min_objects, "scores.min_objects: ", config.min_objects,
-          ", but category '", dataset.categories[c], "' has ", objects[c], " objects");
+    check(excluded[c] || objects[c] >= config.min_objects, "category '", dataset.categories[c], "' has ", objects[c],
+          " objects, fewer than min_objects, ", config.min_objects, "; lower it, or leave the category out");
   return {category, object, pose,
           ProblemOptions{.min_categories = fewest_categories(excluded, config),
                          .max_categories = config.max_categories,

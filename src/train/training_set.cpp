@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 #include "semantics/score_sums.h"
 
 namespace svnet {

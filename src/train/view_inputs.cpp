@@ -4,7 +4,7 @@
 
 #include "base/parallel.h"
 #include "io/image_file.h"
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 #include "train/training_set.h"
 
 namespace svnet {

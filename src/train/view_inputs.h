@@ -6,7 +6,7 @@
 #include "base/team.h"
 #include "io/features_file.h"
 #include "io/view_dataset.h"
-#include "models/image/preprocessing.h"
+#include "models/preprocessing.h"
 #include "nn/runtime/inference.h"
 
 namespace svnet {

@@ -3,7 +3,7 @@
 #include <array>
 #include <cmath>
 
-#include "models/image/image.h"
+#include "image/image.h"
 #include "view/pose.h"
 
 namespace svnet {

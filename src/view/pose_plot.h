@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "models/image/image.h"
+#include "image/image.h"
 #include "view/pose.h"
 
 namespace svnet {

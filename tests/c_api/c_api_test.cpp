@@ -1,6 +1,8 @@
 // The shared library against the classes that it is made of, which are linked into this program a second time.
+#include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <thread>
 
@@ -187,4 +189,38 @@ TEST_CASE("each thread has its own last error, and the number of threads changes
   const std::vector<float> one = loaded.embed(pixels, 70, 50, 150, SVNET_RGB8);
   REQUIRE(svnet_set_threads(3) == SVNET_OK);
   CHECK(loaded.embed(pixels, 70, 50, 150, SVNET_RGB8) == one);
+}
+
+TEST_CASE("the number of threads may change while others compute") {
+  const Loaded loaded;
+  const std::vector<std::uint8_t> pixels = small_picture().rgb;
+  const std::vector<float> expected = loaded.embed(pixels, 70, 50, 150, SVNET_RGB8);
+  std::array<bool, 2> same{};
+  std::vector<std::thread> others;
+  for (bool& result : same)
+    others.emplace_back([&] {
+      result = true;
+      std::vector<float> features(expected.size());
+      for (int i = 0; i < 50; ++i) {
+        svnet_embed(loaded.model, pixels.data(), 70, 50, 150, SVNET_RGB8, features.data());
+        result = result && features == expected;
+      }
+    });
+  for (int i = 0; i < 40; ++i) CHECK(svnet_set_threads(i % 2 == 0 ? 8 : 1) == SVNET_OK);
+  for (auto& other : others) other.join();
+  CHECK((same[0] && same[1]));
+}
+
+TEST_CASE("a wrong value of a variable is no fault of the model") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "model.safetensors";
+  write_model(path, small_model());
+  svnet_model* model = nullptr;
+  for (const char* name : {"SVNET_PRECISION", "SVNET_CONVOLUTION"}) {
+    setenv(name, "fast", 1);
+    CHECK(svnet_model_load(path.c_str(), &model) == SVNET_INVALID_ARGUMENT);
+    CHECK_THAT(svnet_last_error(), Catch::Contains(name));
+    CHECK(model == nullptr);
+    unsetenv(name);
+  }
 }

@@ -40,14 +40,12 @@ TEST_CASE("features are read as they were written") {
   CHECK(features.values == expected.values);
   CHECK(features.theta_phi_deg == expected.theta_phi_deg);
   CHECK(features.paths == expected.paths);
-  for (const FeaturesOrigin& origin : {read_features_origin(path), FeaturesOrigin(features)}) {
-    CHECK(origin.backbone == "mobilenet_v2");
-    CHECK(origin.output == "avg_pool");
-    CHECK(origin.preprocessing == "{\"size\":224}");
-    CHECK(origin.weights_sha256 == "ab12");
-    CHECK(origin.dataset_fingerprint == "cd34");
-    CHECK(origin.input_fingerprint == "ef56");
-  }
+  CHECK(features.backbone == "mobilenet_v2");
+  CHECK(features.output == "avg_pool");
+  CHECK(features.preprocessing == "{\"size\":224}");
+  CHECK(features.weights_sha256 == "ab12");
+  CHECK(features.dataset_fingerprint == "cd34");
+  CHECK(features.input_fingerprint == "ef56");
 }
 
 TEST_CASE("features have the documented datasets and attributes") {

@@ -1,4 +1,4 @@
-#include "models/image/preprocessing.h"
+#include "models/preprocessing.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

@@ -5,7 +5,7 @@
 #include <limits>
 #include <thread>
 
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 #include "nn/graph/run.h"
 #include "small_model.h"
 #include "temporary_folder.h"

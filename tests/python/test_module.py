@@ -144,7 +144,7 @@ def test_a_signal_handler_may_compute_but_not_change_the_number_of_threads():
         signal.signal(signal.SIGALRM, handler)
         signal.setitimer(signal.ITIMER_REAL, 0.2)
         try:
-            svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=10**12)
+            svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=2**32)
             assert False
         except Stop:
             pass
@@ -158,7 +158,7 @@ def test_a_process_forked_while_others_compute_may_change_the_number_of_threads(
         """
         features = np.random.default_rng(1).normal(size=(60, 4))
         groups = np.arange(60)
-        scores = lambda: svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=10**12)
+        scores = lambda: svnet.semantic_scores(features, groups // 15, groups // 3, groups, problems=2**32)
         threading.Thread(target=scores, daemon=True).start()
         expected = svnet.ward(features, 5)
         for _ in range(20):

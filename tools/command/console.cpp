@@ -42,13 +42,13 @@ Console::Console(Voice voice, bool terminal) : voice_(voice), terminal_(terminal
   messages_.line = [this](std::string_view text) { line(text); };
   messages_.progress = [this](std::string_view task, Index done, Index total, double seconds) {
     throw_if_interrupted();
-    progress({without_control_characters(task), done, total, seconds});
+    progress({printable(task), done, total, seconds});
   };
 }
 
 Console::~Console() { erase_bar(); }
 
-void Console::line(std::string_view text) { print(without_control_characters(text)); }
+void Console::line(std::string_view text) { print(printable(text)); }
 
 void Console::result(std::string_view text) {
   if (voice_ == Voice::mute) return;
@@ -56,13 +56,13 @@ void Console::result(std::string_view text) {
   std::size_t start = 0, end;
   do {  // line by line: a result may have many
     end = std::min(text.find('\n', start), text.size());
-    std::cout << without_control_characters(text.substr(start, end - start)) << '\n';
+    std::cout << printable(text.substr(start, end - start)) << '\n';
     start = end + 1;
   } while (end < text.size());
 }
 
 void Console::error(std::string_view text) {
-  const std::string clean = without_control_characters(text);
+  const std::string clean = printable(text);
   erase_bar();
   std::cerr << clean << std::endl;
   try {

@@ -1,6 +1,6 @@
 #include "error_stack.h"
 
-#include "../printable.h"
+#include "base/text.h"
 
 namespace svnet::hdf5 {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-#include "../printable.h"
+#include "base/text.h"
 #include "object_header.h"
 
 namespace svnet::hdf5 {

@@ -1,6 +1,5 @@
 #include <type_traits>
 
-#include "../printable.h"
 #include "base/text.h"
 #include "datatype.h"
 #include "file_state.h"

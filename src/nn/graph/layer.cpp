@@ -23,22 +23,6 @@ void add_bias(std::vector<ParameterSpec>& specs, bool bias, Index size) {
 
 }  // namespace
 
-const char* name_of(Activation activation) {
-  switch (activation) {
-    case Activation::none:
-      return "linear";
-    case Activation::relu:
-      return "relu";
-    case Activation::relu6:
-      return "relu6";
-    case Activation::sigmoid:
-      return "sigmoid";
-    case Activation::softmax:
-      return "softmax";
-  }
-  return "";
-}
-
 const char* kind(const Layer& layer) {
   return std::visit(
       Overloaded{[](const InputLayer&) { return "InputLayer"; }, [](const Conv2dLayer&) { return "Conv2D"; },

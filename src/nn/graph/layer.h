@@ -13,7 +13,6 @@ namespace svnet {
 // What a node of a Graph does: the attributes of each kind of layer, named as in Keras. Shapes leave out the batch.
 
 enum class Activation { none, relu, relu6, sigmoid, softmax };
-const char* name_of(Activation);
 
 struct InputLayer {
   Shape shape{};

@@ -7,7 +7,7 @@
 
 namespace svnet {
 
-/// Changes parameters by their gradients. State (moments, velocities) is exposed by name for checkpoints.
+/// Changes parameters by their gradients. State (moments, velocities) is exposed for checkpoints.
 class Optimizer {
  public:
   virtual ~Optimizer() = default;

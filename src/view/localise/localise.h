@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "models/image/depth_image.h"
-#include "models/image/image.h"
+#include "image/depth_image.h"
+#include "image/image.h"
 #include "view/camera.h"
 
 // Where an object is, and how large: section 3 of the paper, on a picture of the empty table and one with the object,

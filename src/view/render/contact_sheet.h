@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "models/image/image.h"
+#include "image/image.h"
 
 namespace svnet {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "models/image/image.h"
+#include "image/image.h"
 
 namespace svnet {
 

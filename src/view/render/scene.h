@@ -2,8 +2,8 @@
 #include <Eigen/Geometry>
 #include <memory>
 
-#include "models/image/depth_image.h"
-#include "models/image/image.h"
+#include "image/depth_image.h"
+#include "image/image.h"
 #include "view/camera.h"
 #include "view/render/mesh.h"
 #include "view/render/setting.h"

@@ -41,13 +41,6 @@ inline Material walnut() { return wood(0.27f, 0.14f, 0.07f); }
 inline Material clear(float r, float g, float b, float share = 0.85f) {
   return {.colour = {r, g, b}, .second = {r, g, b}, .gloss = 0.06f, .sharpness = 250, .clear = share};
 }
-inline Material striped(const Material& base, float r, float g, float b, float scale_m) {
-  Material m = base;
-  m.second = {r, g, b};
-  m.texture = Texture::stripes;
-  m.scale_m = scale_m;
-  return m;
-}
 
 inline Material black() { return plastic(0.02f, 0.02f, 0.022f); }
 inline Material white() { return plastic(0.82f, 0.82f, 0.8f); }
@@ -59,6 +52,5 @@ inline Material orange() { return plastic(0.8f, 0.22f, 0.02f); }
 inline Material grey() { return plastic(0.25f, 0.26f, 0.27f); }
 inline Material purple() { return plastic(0.25f, 0.06f, 0.35f); }
 inline Material teal() { return plastic(0.03f, 0.35f, 0.36f); }
-inline Material pink() { return plastic(0.75f, 0.2f, 0.35f); }
 
 }  // namespace svnet::looks

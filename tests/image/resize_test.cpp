@@ -1,4 +1,4 @@
-#include "models/image/resize.h"
+#include "image/resize.h"
 
 #include <catch2/catch.hpp>
 #include <fstream>

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "models/image/image.h"
+#include "image/image.h"
 
 namespace svnet {
 

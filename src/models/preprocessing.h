@@ -3,8 +3,8 @@
 #include <string>
 #include <string_view>
 
-#include "models/image/image.h"
-#include "models/image/resize.h"
+#include "image/image.h"
+#include "image/resize.h"
 
 namespace svnet {
 

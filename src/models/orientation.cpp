@@ -1,4 +1,4 @@
-#include "models/image/orientation.h"
+#include "models/orientation.h"
 
 #include <algorithm>
 #include <cmath>
