@@ -74,6 +74,8 @@ TEST_CASE("a model says how many orientations of the top image it looks at, wher
   CHECK_FALSE(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));
   CHECK_THROWS_WITH(written(4, 96), path.string() + ": there are 4 orientations, expected 1 or 8");
   CHECK_THROWS_WITH(written(8, 64), path.string() + ": pictures of 64x96 cannot be turned; only square ones can");
+  CHECK_THROWS_WITH(written(1, 64),
+                    path.string() + ": the backbone does not take pictures of 64x96, as preprocessing makes them");
 }
 
 TEST_CASE("every kind of layer survives JSON") {

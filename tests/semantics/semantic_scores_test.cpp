@@ -241,6 +241,9 @@ TEST_CASE("scores refuse options that cannot be followed") {
     return semantic_scores(f.distances, problems, options, Parallel::shared());
   };
   CHECK_THROWS_WITH(scores({}), "[scores] nothing says when to stop; give problems, min_samples or target_error");
+  CHECK_THROWS_WITH(scores({.problems = (std::uint64_t{1} << 32) + 1}),
+                    "[scores] problems is 4294967297; the sums hold 4294967296 problems");
+  CHECK_THROWS_WITH(scores({.min_samples = std::uint64_t{1} << 40}), Catch::Contains("min_samples is 1099511627776"));
   CHECK_THROWS_WITH(scores({.problems = 1, .target_error = -0.5}),
                     "[scores] target_error is -0.5; it must not be negative");
   const DistanceMatrix other(3);

@@ -144,6 +144,9 @@ const Row kRows[] = {
      "mkdir bad; sed 's/: data/: ..\\/data/; s/: weights/: ..\\/weights/' config.yaml >bad/config.yaml; "
      "cp model.safetensors bad",
      "svnet-eval bad", "bad/model.safetensors: was trained with another configuration"},
+    {"tables in the place of the configuration",
+     "mkdir -p runs/bad; cp config.yaml bad.yaml; cp model.safetensors runs/bad", "svnet-eval bad.yaml --json bad.yaml",
+     "bad.yaml: "},
     {"nothing to describe", "", "svnet-info none.h5", "none.h5: cannot be read"},
     {"a picture to describe", "", "svnet-info top.png", "top.png: is not a safetensors file"},
     // outputs
