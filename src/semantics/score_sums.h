@@ -32,6 +32,7 @@ struct ScoreSums {
   bool operator==(const ScoreSums&) const = default;
 
   /// A score in [0, 1] in fixed point, rounded to nearest.
+  // NOLINTNEXTLINE(bugprone-incorrect-roundings): scores are not negative, and this is asked for every item
   static std::uint64_t fixed(double score) { return static_cast<std::uint64_t>(score * 0x1p32 + 0.5); }
 
   /// Every number but `problems`, view by view.
