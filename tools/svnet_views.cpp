@@ -83,7 +83,7 @@ LocalisedObject find_object(const Options& options, const CameraFile& camera) {
   const Image before = read_image(options.background[0]), after = read_image(options.current[0]);
   const DepthImage depth_before = read_depth(options.background[1]), depth_after = read_depth(options.current[1]);
   LocaliseOptions how{options.largest, !options.steps.empty()};
-  const LocalisedObject object =
+  LocalisedObject object =
       localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
   if (!options.steps.empty()) fs::create_directories(options.steps);
   for (const auto& [name, picture] : object.steps) write_png(options.steps / (name + ".png"), picture);
@@ -155,6 +155,7 @@ void write_views(const Options& options, Console& console) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): CLI11 throws for options that contradict each other, which is seen at once
 int main(int argc, char** argv) {
   Command command("svnet-views",
                   "Says where to bring the camera to see an object from the half-sphere around it, at the distance at "

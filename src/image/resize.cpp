@@ -51,6 +51,7 @@ Filter triangle_filter(Index from, Index to) {
   Filter filter{static_cast<Index>(std::ceil(support)) * 2 + 1, {}, {}, {}};
   filter.weights.resize(static_cast<std::size_t>(to * filter.taps));
   std::vector<double> taps(static_cast<std::size_t>(filter.taps));
+  // NOLINTBEGIN(bugprone-incorrect-roundings): as Pillow rounds, bit for bit
   for (Index i = 0; i < to; ++i) {
     const double centre = (static_cast<double>(i) + 0.5) * scale;
     const Index start = std::max<Index>(static_cast<Index>(centre - support + 0.5), 0);
@@ -68,6 +69,7 @@ Filter triangle_filter(Index from, Index to) {
     filter.starts.push_back(start);
     filter.counts.push_back(count);
   }
+  // NOLINTEND(bugprone-incorrect-roundings)
   return filter;
 }
 

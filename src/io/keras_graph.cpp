@@ -76,12 +76,14 @@ std::string own_name(const std::string& array) {
 
 std::string shapes_of(const std::vector<KerasArray>& arrays) {
   std::vector<std::string> texts;
+  texts.reserve(arrays.size());
   for (const auto& array : arrays) texts.push_back(to_string(array.shape));
   return joined_with(", ", texts);
 }
 
 std::string shapes_of(const std::vector<ParameterSpec>& specs) {
   std::vector<std::string> texts;
+  texts.reserve(specs.size());
   for (const auto& spec : specs) texts.push_back(spec.name + " " + to_string(spec.shape));
   return joined_with(", ", texts);
 }
