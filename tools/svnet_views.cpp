@@ -82,20 +82,25 @@ LocalisedObject find_object(const Options& options, const CameraFile& camera) {
         ": the key 'pose' is missing, where the camera was for the pictures");
   const Image before = read_image(options.background[0]), after = read_image(options.current[0]);
   const DepthImage depth_before = read_depth(options.background[1]), depth_after = read_depth(options.current[1]);
-  LocaliseOptions how{options.largest, !options.steps.empty()};
-  LocalisedObject object =
-      localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
-  if (!options.steps.empty()) fs::create_directories(options.steps);
-  for (const auto& [name, picture] : object.steps) write_png(options.steps / (name + ".png"), picture);
-  return object;
+  const LocaliseOptions how{options.largest, !options.steps.empty()};
+  return localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
 }
+
+fs::path step_file(const Options& options, const char* step) { return options.steps / joined(step, ".png"); }
 
 /// Before the work, so that no output takes the place of an input or of another output.
 void check_outputs(const Options& options) {
   std::vector<fs::path> others{options.camera, options.poses, options.reachable};
   others.insert(others.end(), options.background.begin(), options.background.end());
   others.insert(others.end(), options.current.begin(), options.current.end());
-  for (const fs::path& output : {options.csv, options.json, options.plot}) {
+  std::vector<fs::path> outputs{options.csv, options.json, options.plot};
+  if (!options.steps.empty()) {
+    std::error_code error;
+    fs::create_directories(options.steps, error);
+    check(!error, options.steps.string(), ": cannot be made: ", error.message());
+    for (const char* step : kLocaliseSteps) outputs.push_back(step_file(options, step));
+  }
+  for (const fs::path& output : outputs) {
     if (output.empty()) continue;
     check_can_be_written(output, others);
     others.push_back(output);
@@ -109,8 +114,10 @@ void write_views(const Options& options, Console& console) {
   Json document;
   Eigen::Vector3d centre;
   double diagonal_m = options.diagonal_m;
+  std::vector<Image> steps;
   if (!options.current.empty()) {
-    const LocalisedObject object = find_object(options, camera);
+    LocalisedObject object = find_object(options, camera);
+    steps = std::move(object.steps);
     document["object"] = object_json(object);
     centre = object.centre_m;
     diagonal_m = object.diagonal_m;
@@ -143,6 +150,7 @@ void write_views(const Options& options, Console& console) {
   if (!options.csv.empty()) write_atomically(options.csv, csv_text(views));
   if (!options.json.empty()) write_atomically(options.json, document.dump(2) + "\n");
   if (!options.plot.empty()) write_png(options.plot, pose_plot(poses, reached));
+  for (std::size_t i = 0; i < steps.size(); ++i) write_png(step_file(options, kLocaliseSteps[i]), steps[i]);
   if (options.csv.empty() && options.json.empty()) {
     std::string text = csv_text(views);
     text.pop_back();

@@ -177,6 +177,14 @@ TEST_CASE("svnet-views localises an object and says where to see it from") {
   CHECK(read_image(folder.path() / "v.png").width == 512);
   for (const char* step : {"difference", "foreground", "contour", "height"})
     CHECK(read_image(folder.path() / "steps" / (std::string(step) + ".png")).width == 640);
+  // The pictures of the steps take no input's place.
+  std::filesystem::copy_file(folder.path() / (extra + "overview.png"), folder.path() / "contour.png");
+  CHECK(run(folder, SVNET_VIEWS " d/_extra/overview_camera.json --background " + extra + "overview_background.png " +
+                        extra + "overview_background_depth.png --current contour.png " + extra +
+                        "overview_depth.png --steps .")
+            .err ==
+        "svnet-views: ./contour.png: cannot be written: the command needs this file for something else; "
+        "give another name\n");
   std::istringstream csv(file_contents(folder.path() / "v.csv"));
   std::string line;
   std::getline(csv, line);

@@ -71,7 +71,7 @@ TEST_CASE("a block is found where it is, with its size, under a light that chang
     CHECK(std::abs(std::sin(object.yaw_rad)) < 0.05);
     CHECK(object.diagonal_m == Approx(std::sqrt(0.12 * 0.12 + 0.06 * 0.06 + 0.04 * 0.04)).margin(0.004));
     REQUIRE(object.steps.size() == 4);
-    for (const auto& [name, step] : object.steps) CHECK(step.width == 640);
+    for (const Image& step : object.steps) CHECK(step.width == 640);
   }
 }
 

@@ -122,6 +122,32 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
   return {table_m, std::max(height_m, 0.0)};
 }
 
+/// Pictures of kLocaliseSteps.
+std::vector<Image> pictures_of_steps(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
+                                     const Foreground& foreground, const cv::Mat1b& object, const cv::Mat3b& after,
+                                     const std::vector<std::vector<cv::Point>>& contours,
+                                     const cv::RotatedRect& rectangle_mm, const LocalisedObject& found) {
+  cv::Mat1b grey;
+  foreground.difference.convertTo(grey, CV_8U, 8);
+  cv::Mat3b drawn = after.clone();
+  cv::drawContours(drawn, contours, -1, {255, 0, 0}, 1);
+  const Eigen::Isometry3d world_to_camera = camera_to_world.inverse();
+  const auto pixel_of = [&](double x_m, double y_m) {
+    const Eigen::Vector2d pixel = projected_px(camera, world_to_camera * Eigen::Vector3d(x_m, y_m, found.centre_m.z()));
+    return cv::Point(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  };
+  cv::Point2f corners[4];
+  rectangle_mm.points(corners);
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = [&](int k) { return pixel_of(corners[k % 4].x / 1000.0, corners[k % 4].y / 1000.0); };
+    cv::line(drawn, corner(i), corner(i + 1), {0, 255, 0}, 1);
+  }
+  cv::circle(drawn, pixel_of(found.centre_m.x(), found.centre_m.y()), 4, {0, 255, 255}, -1);
+  cv::Mat1b raised;
+  foreground.rise_m.convertTo(raised, CV_8U, 230 / std::max(found.height_m, 0.005), 12);
+  return {image_of(grey), image_of(object), image_of(drawn), image_of(raised)};
+}
+
 }  // namespace
 
 LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
@@ -172,32 +198,8 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   result.centre_m = {middle.x / 1000.0, middle.y / 1000.0, height.table_m + height.object_m / 2};
   result.diagonal_m = std::sqrt(result.length_m * result.length_m + result.width_m * result.width_m +
                                 result.height_m * result.height_m);
-  if (!options.keep_steps) return result;
-
-  cv::Mat1b grey;
-  foreground.difference.convertTo(grey, CV_8U, 8);
-  result.steps.emplace_back("difference", image_of(grey));
-  result.steps.emplace_back("foreground", image_of(object));
-  cv::Mat3b drawn = after.clone();
-  cv::drawContours(drawn, contours, -1, {255, 0, 0}, 1);
-  const Eigen::Isometry3d world_to_camera = camera_to_world.inverse();
-  const auto pixel_of = [&](double x_m, double y_m, double z_m) {
-    const Eigen::Vector2d pixel = projected_px(camera, world_to_camera * Eigen::Vector3d(x_m, y_m, z_m));
-    return cv::Point(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
-  };
-  cv::Point2f corners[4];
-  rectangle.points(corners);
-  for (int i = 0; i < 4; ++i) {
-    const auto corner = [&](int k) {
-      return pixel_of(corners[k % 4].x / 1000.0, corners[k % 4].y / 1000.0, result.centre_m.z());
-    };
-    cv::line(drawn, corner(i), corner(i + 1), {0, 255, 0}, 1);
-  }
-  cv::circle(drawn, pixel_of(result.centre_m.x(), result.centre_m.y(), result.centre_m.z()), 4, {0, 255, 255}, -1);
-  result.steps.emplace_back("contour", image_of(drawn));
-  cv::Mat1b raised;
-  foreground.rise_m.convertTo(raised, CV_8U, 230 / std::max(result.height_m, 0.005), 12);
-  result.steps.emplace_back("height", image_of(raised));
+  if (options.keep_steps)
+    result.steps = pictures_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
   return result;
 }
 

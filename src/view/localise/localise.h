@@ -1,5 +1,6 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,6 +22,10 @@ struct LocaliseOptions {
   bool keep_steps = false;    // the pictures for the eye
 };
 
+/// The steps of the work that there are pictures of: what differs, what belongs to the object, its contour with the
+/// rectangle and GC, how high it rises.
+constexpr std::array<const char*, 4> kLocaliseSteps{"difference", "foreground", "contour", "height"};
+
 struct LocalisedObject {
   Eigen::Vector3d centre_m;  // GC: the middle of the smallest circle around the contour (enclosing_circle.h), half way
                              // up; world
@@ -29,8 +34,7 @@ struct LocalisedObject {
   double height_m;    // above the table
   double yaw_rad;     // of the longer side from the world's x axis, in [0, π)
   double diagonal_m;  // d = √(length² + width² + height²)
-  /// In the order of the work: difference, foreground, contour (with the rectangle and GC), height.
-  std::vector<std::pair<std::string, Image>> steps;
+  std::vector<Image> steps;  // of kLocaliseSteps, where they were to be kept
 };
 
 /// Finds the object. What changed in colour belongs to it, unless it only got darker and lies no higher than before (a
