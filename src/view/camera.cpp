@@ -42,16 +42,21 @@ double viewing_radius_m(const Intrinsics& camera, double diagonal_m) {
          std::max(camera.fx / static_cast<double>(camera.width), camera.fy / static_cast<double>(camera.height));
 }
 
+Eigen::Vector3d outwards(const Pose& pose) {
+  const double theta = pose.theta_deg * std::numbers::pi / 180, phi = pose.phi_deg * std::numbers::pi / 180;
+  return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
+}
+
 Eigen::Isometry3d camera_pose(const Pose& pose, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
   const std::string problem = pose_problem(pose);
   check(problem.empty(), "[view] ", problem);
   check(std::isfinite(radius_m) && radius_m > 0, "[view] the radius is ", radius_m, " m, expected a positive length");
   check(centre_m.allFinite(), "[view] the centre (", centre_m.transpose(), ") is not finite");
-  const double theta = pose.theta_deg * std::numbers::pi / 180, phi = pose.phi_deg * std::numbers::pi / 180;
-  const Eigen::Vector3d outwards(std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi));
+  const double theta = pose.theta_deg * std::numbers::pi / 180;
+  const Eigen::Vector3d away = outwards(pose);
   Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() = centre_m + radius_m * outwards;
-  const Eigen::Vector3d z = -outwards, x(std::sin(theta), -std::cos(theta), 0), y = z.cross(x);
+  result.translation() = centre_m + radius_m * away;
+  const Eigen::Vector3d z = -away, x(std::sin(theta), -std::cos(theta), 0), y = z.cross(x);
   if (frame == CameraFrame::paper)
     result.linear() << x, y, z;
   else

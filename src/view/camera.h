@@ -37,7 +37,10 @@ constexpr double kViewShare = 0.7;
 /// along the side with the smaller angle of view: R = d / kViewShare · max(fx / width, fy / height).
 double viewing_radius_m(const Intrinsics&, double diagonal_m);
 
-/// Camera to world: the camera at centre + R (cos φ cos θ, cos φ sin θ, sin φ), looking at the centre, x level. At
+/// The unit vector from the object to the camera, (cos φ cos θ, cos φ sin θ, sin φ).
+Eigen::Vector3d outwards(const Pose&);
+
+/// Camera to world: the camera at centre + R outwards(pose), looking at the centre, x level. At
 /// φ = 90° x has the direction of the limit for the given θ. Throws Error unless the pose is in range and R is
 /// positive.
 Eigen::Isometry3d camera_pose(const Pose&, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame);

@@ -31,8 +31,9 @@ PosedObject pose_object(const Mesh& mesh, Index pose, std::uint64_t seed, std::u
                                        .toRotationMatrix();
   Eigen::AlignedBox3d box;
   for (const Vec3& point : mesh.points) box.extend(posed.object_to_world * point.cast<double>());
-  posed.object_to_world.translation() = Eigen::Vector3d(between(-0.04, 0.04), between(-0.04, 0.04), 0) -
-                                        Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
+  const double y = between(-0.04, 0.04), x = between(-0.04, 0.04);
+  posed.object_to_world.translation() =
+      Eigen::Vector3d(x, y, 0) - Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
 
   // A robot misses none of the views, or one or two, rarely up to five; never the top view.
   posed.views = paper_grid();

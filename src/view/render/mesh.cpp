@@ -72,8 +72,9 @@ Eigen::Vector3d centre_of_mass(const Mesh& mesh) {
     by_area += a / 3 * (p[0] + p[1] + p[2]);
     size = std::max({size, p[0].norm(), p[1].norm(), p[2].norm()});
   }
-  // A sheet has area without volume; an open mesh may even have a centre outside its own reach.
-  if (volume > 1e-4 * area * size) {
+  // A sheet has area without volume; an open mesh may even have a centre outside its own reach. Volume is negative
+  // where triangles face inwards.
+  if (std::abs(volume) > 1e-4 * area * size) {
     const Vector3d centre = by_volume / volume;
     if (centre.norm() <= size) return origin + centre;
   }

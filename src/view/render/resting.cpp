@@ -94,9 +94,10 @@ std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> 
   const auto kept = static_cast<Index>(number.size());
   draw_without_replacement(random, number.data(), kept, kept);  // in any order: sorted points make the most faces
   std::vector<Vector3d> p;
-  for (const std::uint32_t i : number)
-    p.emplace_back(given[i] +
-                   1e-5 * size * Vector3d(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
+  for (const std::uint32_t i : number) {
+    const double z = random.uniform() - 0.5, y = random.uniform() - 0.5, x = random.uniform() - 0.5;
+    p.emplace_back(given[i] + 1e-5 * size * Vector3d(x, y, z));
+  }
 
   // The first tetrahedron: the points farthest from a point, a line, a plane.
   const auto farthest = [&](const auto& distance) {
