@@ -18,15 +18,17 @@ namespace fs = std::filesystem;
 
 /// Of a scene that a robot looks at; beyond it numbers are in another unit.
 constexpr float kFarthest_m = 100;
+/// The largest level, which cameras write for a hole as well.
+constexpr std::uint16_t kNoLevel = 65535;
 
 const DepthImage& checked(const std::string& name, const DepthImage& image) {
-  const auto is_distance = [](float z) { return z > 0 && z < kFarthest_m; };
+  const auto is_distance = [](float z) { return z > 0; };
   check(std::any_of(image.metres.begin(), image.metres.end(), is_distance), name, ": holds no distance between 0 and ",
         kFarthest_m, " m; depth is in millimetres in a PNG, in metres in .npy");
   return image;
 }
 
-float metres_or_hole(double z) { return std::isfinite(z) && z > 0 ? static_cast<float>(z) : 0.0f; }
+float metres_or_hole(double z) { return z > 0 && z < static_cast<double>(kFarthest_m) ? static_cast<float>(z) : 0.0f; }
 
 /// Format: "\x93NUMPY", version, length of the header, a Python dictionary, then the numbers.
 /// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
@@ -89,7 +91,8 @@ DepthImage read_depth(const fs::path& path) {
   const Grey16 grey = decode_grey16_png(name, file);
   DepthImage image{grey.height, grey.width, {}};
   image.metres.reserve(grey.levels.size());
-  for (const std::uint16_t level : grey.levels) image.metres.push_back(static_cast<float>(level) / 1000);
+  for (const std::uint16_t level : grey.levels)
+    image.metres.push_back(level == kNoLevel ? 0.0f : static_cast<float>(level) / 1000);
   return checked(name, image);
 }
 
@@ -98,7 +101,7 @@ void write_depth_png(const fs::path& path, const DepthImage& depth) {
   grey.levels.reserve(depth.metres.size());
   for (const float z : depth.metres) {
     const double mm = std::round(1000.0 * static_cast<double>(z));
-    grey.levels.push_back(mm >= 0 && mm <= 65535 ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
+    grey.levels.push_back(mm >= 0 && mm < kNoLevel ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
   }
   write_atomically(path, encoded_grey16_png(path.string(), grey));
 }

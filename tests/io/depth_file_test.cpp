@@ -38,11 +38,11 @@ std::string refusal(const std::filesystem::path& path) {
 TEST_CASE("depth is written and read in millimetres") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "depth.png";
-  write_depth_png(path, {2, 3, {0, 0.001f, 0.5f, 1.2346f, 65.535f, 70}});
+  write_depth_png(path, {2, 3, {0, 0.001f, 0.5f, 1.2346f, 65.534f, 65.535f}});
   const DepthImage depth = read_depth(path);
   CHECK(depth.height == 2);
   CHECK(depth.width == 3);
-  CHECK(depth.metres == std::vector<float>{0, 0.001f, 0.5f, 1.235f, 65.535f, 0});
+  CHECK(depth.metres == std::vector<float>{0, 0.001f, 0.5f, 1.235f, 65.534f, 0});
 }
 
 TEST_CASE("depth is read from NumPy files of floats in metres") {
@@ -51,9 +51,10 @@ TEST_CASE("depth is read from NumPy files of floats in metres") {
   const auto path = folder.write("a.npy", npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", single));
   CHECK(read_depth(path).metres == std::vector<float>{1.5f, 0, 0, 0, 0, 2.25f});
   CHECK(read_depth(path).width == 3);
-  const std::string twice = bytes(std::vector<double>{0.25, 4});
-  folder.write("b.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 2), }", twice));
-  CHECK(read_depth(folder.path() / "b.npy").metres == std::vector<float>{0.25f, 4});
+  // What is farther than a robot sees stands for a hole.
+  const std::string twice = bytes(std::vector<double>{0.25, 4, 1000});
+  folder.write("b.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }", twice));
+  CHECK(read_depth(folder.path() / "b.npy").metres == std::vector<float>{0.25f, 4, 0});
 }
 
 TEST_CASE("depth files that cannot be read get one line that names them") {
