@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <assimp/Importer.hpp>
+#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -16,11 +17,31 @@
 #include "image_codecs.h"
 #include "io/image_file.h"
 #include "ply_check.h"
+#include "view/render/texture.h"
 
 namespace svnet {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// In lower case.
+std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
+
+/// With "%20" and the like as the bytes that they stand for (RFC 3986, section 2.1).
+std::string decoded_uri(std::string_view uri) {
+  std::string result;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    std::uint8_t byte = 0;
+    const char* digits = uri.data() + i + 1;
+    if (uri[i] == '%' && i + 2 < uri.size() && std::from_chars(digits, digits + 2, byte, 16).ptr == digits + 2) {
+      result += static_cast<char>(byte);
+      i += 2;
+    } else {
+      result += uri[i];
+    }
+  }
+  return result;
+}
 
 /// The texture `reference` of the scene: embedded, or a file beside the mesh.
 Image texture(const aiScene& scene, const fs::path& mesh, const std::string& reference) {
@@ -33,7 +54,7 @@ Image texture(const aiScene& scene, const fs::path& mesh, const std::string& ref
     return decode_png(name, bytes);
   }
   // Only from the mesh's own folder: a file must not make us read any path of this machine.
-  std::string file = reference;
+  std::string file = extension_of(mesh) == ".glb" ? decoded_uri(reference) : reference;
   for (char& c : file)
     if (c == '\\') c = '/';
   return read_image(mesh.parent_path() / fs::path(file).filename());
@@ -56,8 +77,23 @@ Material material_of(const aiScene& scene, const aiMaterial& from, const fs::pat
   return material;
 }
 
-/// In lower case.
-std::string extension_of(const fs::path& path) { return lower_case(path.extension().string()); }
+/// The part's material, or one of its own in the mean of its vertices' colours, which scanners write in place of
+/// textures.
+int material_of_part(const aiMesh& part, Mesh& mesh) {
+  const auto number = static_cast<int>(part.mMaterialIndex);
+  Material material = mesh.materials.at(part.mMaterialIndex);
+  if (!part.HasVertexColors(0) || material.texture == Texture::picture) return number;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (unsigned v = 0; v < part.mNumVertices; ++v)
+    for (int c = 0; c < 3; ++c) {
+      const double level = 255.0 * static_cast<double>(part.mColors[0][v][static_cast<unsigned>(c)]);
+      if (level >= 0)
+        sum[c] += static_cast<double>(linear_from_srgb(static_cast<std::uint8_t>(std::min(std::round(level), 255.0))));
+    }
+  material.colour = material.second = (sum / part.mNumVertices).cast<float>();
+  mesh.materials.push_back(material);
+  return static_cast<int>(mesh.materials.size()) - 1;
+}
 
 std::string file_contents(const fs::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -111,6 +147,7 @@ Mesh read_mesh(const fs::path& path, double metres_per_unit) {
     const aiMesh& part = *scene->mMeshes[m];
     if ((part.mPrimitiveTypes & aiPrimitiveType_TRIANGLE) == 0) continue;
     const auto base = static_cast<std::uint32_t>(mesh.points.size());
+    const int material = material_of_part(part, mesh);
     for (unsigned v = 0; v < part.mNumVertices; ++v) {
       const aiVector3D& p = part.mVertices[v];
       const Vec3 point = Vec3(p.x, p.y, p.z) * static_cast<float>(metres_per_unit);
@@ -122,7 +159,7 @@ Mesh read_mesh(const fs::path& path, double metres_per_unit) {
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
       const aiFace& face = part.mFaces[f];
       if (face.mNumIndices != 3) continue;
-      Mesh::Triangle triangle{{}, static_cast<int>(part.mMaterialIndex)};
+      Mesh::Triangle triangle{{}, material};
       std::array<Vec2, 3> uv;
       for (unsigned k = 0; k < 3; ++k) {
         triangle.corner[k] = base + face.mIndices[k];

@@ -39,8 +39,8 @@ std::string glb_chunk(const char* kind, std::string contents, char filler) {
 }
 
 /// A binary glTF file (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): a triangle whose material takes its
-/// colour from `picture`, which is embedded.
-std::string glb(const std::string& picture, const char* mime_type) {
+/// colour from `image`, a JSON object; `picture` is buffer view 3.
+std::string glb_of(const std::string& image, const std::string& picture) {
   const std::string points = bytes<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}), uv = bytes<float>({0, 0, 1, 0, 0, 1}),
                     corners = bytes<std::uint16_t>({0, 1, 2, 0});
   const auto view = [](std::size_t offset, std::size_t length) {
@@ -52,8 +52,8 @@ std::string glb(const std::string& picture, const char* mime_type) {
       R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
     "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}, "metallicFactor": 0}}],
-    "textures": [{"source": 0}], "images": [{"bufferView": 3, "mimeType": ")" +
-      std::string(mime_type) + R"("}],
+    "textures": [{"source": 0}], "images": [)" +
+      image + R"(],
     "accessors": [
       {"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [0, 0, 0], "max": [2, 2, 0]},
       {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
@@ -63,6 +63,11 @@ std::string glb(const std::string& picture, const char* mime_type) {
       R"(], "buffers": [{"byteLength": )" + std::to_string(binary.size()) + "}]}";
   const std::string chunks = glb_chunk("JSON", json, ' ') + glb_chunk(std::string("BIN\0", 4).c_str(), binary, '\0');
   return "glTF" + bytes<std::uint32_t>({2, static_cast<std::uint32_t>(12 + chunks.size())}) + chunks;
+}
+
+/// The picture is embedded.
+std::string glb(const std::string& picture, const std::string& mime_type) {
+  return glb_of(R"({"bufferView": 3, "mimeType": ")" + mime_type + R"("})", picture);
 }
 
 /// The PNG file of a picture with a red pixel above a green one.
@@ -101,6 +106,37 @@ TEST_CASE("meshes are read with their unit, colours and textures") {
 
   CHECK(read_mesh(folder.write("a.stl", kStl)).triangles.size() == 1);
   CHECK(read_mesh(folder.write("a.ply", kPly)).triangles.size() == 1);
+}
+
+TEST_CASE("a part has the mean of its vertices' colours") {
+  const TemporaryFolder folder;
+  const Mesh mesh = read_mesh(folder.write("scan.ply", R"(ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property uchar red
+property uchar green
+property uchar blue
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0 255 0 0
+1 0 0 255 0 0
+0 1 0 255 255 0
+3 0 1 2
+)"));
+  const Material& material = mesh.materials[static_cast<std::size_t>(mesh.triangles[0].material)];
+  CHECK(material.colour.isApprox(Vec3(1, 1.0f / 3, 0)));
+  CHECK(material.second.isApprox(material.colour));
+}
+
+TEST_CASE("the name of a GLB's texture is an encoded URI") {
+  const TemporaryFolder folder;
+  small_png(folder);
+  std::filesystem::rename(folder.path() / "small.png", folder.path() / "my paint%.png");
+  CHECK(read_mesh(folder.write("a.glb", glb_of(R"({"uri": "my%20paint%25.png"})", "unused"))).pictures.size() == 1);
 }
 
 TEST_CASE("meshes that cannot be read get one line that names them") {
