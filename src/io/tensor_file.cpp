@@ -1,5 +1,6 @@
 #include "io/tensor_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -15,13 +16,18 @@ std::string path_of(const std::string& prefix, const std::string& name) {
   return prefix.empty() ? name : prefix + "/" + name;
 }
 
+void check_finite(const std::string& path, const std::string& name, const Tensor& tensor) {
+  const auto numbers = tensor.values<float>();
+  const auto bad = std::find_if(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); });
+  check(bad == numbers.end(), path, ": tensor '", name, "' holds a value that is not finite at ",
+        bad - numbers.begin());
+}
+
 Tensor copied(const std::string& path, const SafetensorsTensor& from) {
   check(from.dtype == "F32", path, ": tensor '", from.name, "' is ", from.dtype, ", expected F32");
   Tensor tensor = Tensor::empty(from.shape);
   std::memcpy(tensor.data<float>(), from.bytes.data(), from.bytes.size());
-  for (Index i = 0; i < tensor.size(); ++i)
-    check(std::isfinite(tensor.data<float>()[i]), path, ": tensor '", from.name,
-          "' holds a value that is not finite at ", i);
+  check_finite(path, from.name, tensor);
   return tensor;
 }
 
@@ -112,6 +118,7 @@ void TensorFile::check_holds_only(const Parameters& parameters) const {
 
 void TensorFile::write(const std::filesystem::path& path) const {
   std::vector<SafetensorsTensor> raw;
+  for (const auto& [name, tensor] : tensors_) check_finite(path.string(), name, tensor);
   for (const auto& [name, tensor] : tensors_)
     raw.push_back({name, "F32", tensor.shape(), std::as_bytes(tensor.values<float>())});
   nlohmann::json description = *description_;

@@ -13,6 +13,7 @@
 #include "nn/optim/schedule.h"
 #include "nn/runtime/inference.h"
 #include "train/epoch_order.h"
+#include "train/finite.h"
 #include "train/labelled_pictures.h"
 #include "train/training_set.h"
 
@@ -112,6 +113,10 @@ Learnt step(const Graph& described, Parameters& parameters, Optimizer& optimizer
         "; a smaller learning rate may help");
   autograd::GradientMap gradients;
   autograd::backward(loss, gradients);
+  const std::vector<Tensor> trained = trainable(described, parameters);
+  const auto is_sound = [&](const Tensor& parameter) { return has_finite_gradient(gradients, parameter); };
+  check(std::all_of(trained.begin(), trained.end(), is_sound), "[pretraining] a gradient is not finite at step ",
+        optimizer.steps, "; a smaller learning rate may help");
   optimizer.step(gradients, rate);
   return {loss.item() * static_cast<double>(batch.classes.size()), recognised(logits, batch.classes)};
 }
@@ -158,6 +163,9 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
       sum.right += learnt.right;
       progress.update(optimizer->steps);
     }
+    for (const auto& [name, parameter] : parameters.items())
+      check(is_finite(parameter), "[pretraining] ", name, " is not finite after epoch ", epoch + 1,
+            "; a smaller learning rate may help");
     const auto count = static_cast<double>(training.size());
     if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation);
     if (messages.line)

@@ -14,38 +14,12 @@
 #include "nn/ops/losses.h"
 #include "nn/optim/optimizer.h"
 #include "train/epoch_order.h"
+#include "train/finite.h"
 
 namespace svnet {
 namespace {
 
 constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
-
-/// The largest absolute value; infinite where a number is not finite.
-float largest(const Tensor& x) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  std::vector<float> found(static_cast<std::size_t>(Parallel::shared().threads()), 0.0f);
-  const auto numbers = x.defined() ? x.values<float>() : std::span<const float>{};
-  Parallel::shared().for_chunks(static_cast<Index>(numbers.size()), 1 << 16, [&](Index begin, Index end, int worker) {
-    float most = 0;
-    bool finite = true;
-    for (Index i = begin; i < end; ++i) {
-      const float value = std::abs(numbers[static_cast<std::size_t>(i)]);
-      finite = finite && value < kInfinity;  // NaN is not less
-      most = value > most ? value : most;
-    }
-    float& here = found[static_cast<std::size_t>(worker)];
-    here = std::max(here, finite ? most : kInfinity);
-  });
-  return *std::max_element(found.begin(), found.end());
-}
-
-/// Whether every number of the gradient is finite. A product is known to be so by a bound, without being formed.
-bool is_finite(const autograd::GradientMap& gradients, const Tensor& parameter) {
-  if (const auto* product = gradients.product_of(parameter))
-    return static_cast<double>(largest(product->x)) * largest(product->dy) * static_cast<double>(product->x.dim(0)) <
-           std::numeric_limits<float>::max();
-  return std::isfinite(largest(gradients.of(parameter)));
-}
 
 /// The sum of all numbers as integers: any difference shows, unless differences cancel.
 std::uint64_t sum_of_bits(const Parameters& parameters) {
@@ -111,7 +85,7 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
   autograd::GradientMap gradients(autograd::GradientMap::Products::keep);
   autograd::backward(loss, gradients);
   for (const Tensor& parameter : trainable(graph_, parameters))
-    check(is_finite(gradients, parameter), "[training] a gradient is not finite at step ", optimizer.steps,
+    check(has_finite_gradient(gradients, parameter), "[training] a gradient is not finite at step ", optimizer.steps,
           "; a smaller learning rate may help");
   optimizer.step(gradients, options_.schedule.at(optimizer.steps));
   return loss.item();

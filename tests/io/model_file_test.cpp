@@ -150,11 +150,22 @@ TEST_CASE("a file that is no model, or has other tensors, is refused") {
   model.head_parameters.set("mlp1_1_fc/bias", Tensor::zeros({9}));
   write_model(path, model);
   CHECK_THROWS_WITH(read_model(path), path.string() + ": tensor 'head/mlp1_1_fc/bias' is 9, expected 8");
+  // A value that is not finite is neither written nor read.
+  const std::string not_finite = path.string() + ": tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3";
   model = small_model();
-  model.head_parameters.at("mlp1_1_fc/bias").data<float>()[3] = std::nanf("");
   write_model(path, model);
-  CHECK_THROWS_WITH(read_model(path),
-                    path.string() + ": tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3");
+  model.head_parameters.at("mlp1_1_fc/bias").data<float>()[3] = std::nanf("");
+  CHECK_THROWS_WITH(write_model(path, model), not_finite);
+  const SafetensorsFile good(path);
+  std::vector<float> bias(8, std::nanf(""));
+  std::fill_n(bias.begin(), 3, 1.0f);
+  std::vector<SafetensorsTensor> tensors = good.tensors();
+  for (auto& tensor : tensors)
+    if (tensor.name == "head/mlp1_1_fc/bias") tensor.bytes = std::as_bytes(std::span(bias));
+  const auto bad = temporary.path() / "bad.safetensors";
+  write_safetensors(bad, tensors, good.metadata());
+  CHECK_THROWS_WITH(read_model(bad),
+                    Catch::EndsWith("tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3"));
 }
 
 TEST_CASE("a checkpoint comes back") {

@@ -95,6 +95,13 @@ TEST_CASE("pretraining says what is wrong with its data") {
   options.epochs = 20;
   CHECK_THROWS_WITH(attempt(options), Catch::StartsWith("[pretraining] the loss is not finite at step ") &&
                                           Catch::EndsWith("; a smaller learning rate may help"));
+  // In the last step, which no loss follows.
+  options.batch_size = 4096;
+  options.epochs = 1;
+  options.learning_rate = 1e39;
+  CHECK_THROWS_WITH(attempt(options),
+                    Catch::StartsWith("[pretraining] ") &&
+                        Catch::EndsWith(" is not finite after epoch 1; a smaller learning rate may help"));
   temporary.write("cone/1/1/45_0.png", "no picture");
   CHECK_THROWS_WITH(attempt(small_options()),
                     root + "/cone/1/1/45_0.png: is not a PNG, JPEG or WebP picture, whatever its name says");
