@@ -26,9 +26,10 @@ class Adam : public Optimizer {
         .beta1 = options_.beta1,
         .beta2 = options_.beta2,
         .epsilon = options_.epsilon};
-    if (options_.weight_decay > 0) decay(1 - learning_rate * options_.weight_decay);
+    const double kept = 1 - learning_rate * options_.weight_decay;
     for (std::size_t i = 0; i < parameters_.size(); ++i) {
       if (const auto* p = gradients.product_of(parameters_[i]); p != nullptr && p->x.dtype() == DType::f32) {
+        decay(parameters_[i], kept);
         kernels::adam_product(Parallel::shared(), step, {p->x.dim(0), p->x.dim(1), p->dy.dim(1)}, p->x.data<float>(),
                               p->dy.data<float>(), parameters_[i].data<float>(), first_[i].data<float>(),
                               second_[i].data<float>());
@@ -36,6 +37,7 @@ class Adam : public Optimizer {
       }
       const Tensor gradient = gradients.of(parameters_[i]);
       if (!gradient.defined()) continue;
+      decay(parameters_[i], kept);
       with_dtype(gradient.dtype(), [&]<class T>() {
         kernels::adam(Parallel::shared(), step, gradient.size(), gradient.data<T>(), parameters_[i].data<T>(),
                       first_[i].data<T>(), second_[i].data<T>());
@@ -50,13 +52,12 @@ class Adam : public Optimizer {
   }
 
  private:
-  void decay(double kept) {
-    for (Tensor& parameter : parameters_) {
-      if (parameter.rank() < 2) continue;
-      with_dtype(parameter.dtype(), [&]<class T>() {
-        for (Index i = 0; i < parameter.size(); ++i) parameter.data<T>()[i] *= static_cast<T>(kept);
-      });
-    }
+  /// Not of biases and the like.
+  static void decay(Tensor& parameter, double kept) {
+    if (kept == 1 || parameter.rank() < 2) return;
+    with_dtype(parameter.dtype(), [&]<class T>() {
+      for (Index i = 0; i < parameter.size(); ++i) parameter.data<T>()[i] *= static_cast<T>(kept);
+    });
   }
 
   std::vector<Tensor> parameters_, first_, second_;
