@@ -1,6 +1,5 @@
 // svnet-render: a collection of views in simulation, as a robot with an RGB-D camera would make it.
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -9,6 +8,7 @@
 #include "base/version.h"
 #include "command/command.h"
 #include "command/number_check.h"
+#include "io/atomic_file.h"
 #include "io/camera_file.h"
 #include "io/depth_file.h"
 #include "io/fresh_folder.h"
@@ -16,13 +16,15 @@
 #include "render/sources.h"
 #include "view/render/catalogue.h"
 #include "view/render/collection.h"
-#include "view/render/contact_sheet.h"
+#include "view/render/picture_table.h"
 
 namespace {
 
 using namespace svnet;
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
+
+constexpr Index kSheetCell_px = 96;  // of the contact sheet
 
 struct Options {
   fs::path output, meshes;
@@ -31,12 +33,6 @@ struct Options {
   std::uint64_t seed = 1;
   double metres_per_unit = 1;
 };
-
-void write_text(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  check(static_cast<bool>(file.flush()), path.string(), ": cannot be written; is the disk full?");
-}
 
 /// Whether the object reaches the border of the picture.
 bool is_cut_off(const Shot& shot) {
@@ -70,6 +66,7 @@ Collected try_to_collect(const Mesh& mesh, Index pose, Index size, std::uint64_t
   for (std::size_t view = 0; view < posed.views.size(); ++view) {
     result.views.push_back(take_view(posed, scene, result.object, size, seed, number, view));
     check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
+    result.views.back().shot.radiance = {};  // the picture is taken
   }
   return result;
 }
@@ -133,7 +130,7 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
                {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
                {"tries", tries},
                {"views", names}},
-          fullest_view(*found),
+          resized_to_fit(fullest_view(*found), kSheetCell_px),
           {}};
 }
 
@@ -147,7 +144,6 @@ void check_meshes(const std::vector<Source>& sources, const Options& options) {
 
 void render(const Options& options, Console& console) {
   constexpr Index kSheetPictures = 15;  // of each category, so that the sheet fits a screen's width
-  constexpr Index kSheetCell_px = 96;
   const std::vector<Source> sources =
       options.meshes.empty()
           ? catalogue_sources(options.categories, options.objects)
@@ -198,7 +194,7 @@ void render(const Options& options, Console& console) {
 
   Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options.seed}, {"size_px", options.size}};
   Index pictures = 0;
-  std::vector<ContactRow> sheet;
+  std::vector<PictureRow> sheet;
   for (Index number = 0; number < total; ++number) {
     const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
     Entry& entry = entries[static_cast<std::size_t>(number)];
@@ -212,11 +208,11 @@ void render(const Options& options, Console& console) {
     if (sheet.empty() || sheet.back().label != source.category) sheet.push_back({source.category, {}});
     if (!entry.picture.rgb.empty()) sheet.back().pictures.push_back(std::move(entry.picture));
   }
-  write_png(folder.path() / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheetCell_px));
-  write_text(folder.path() / "manifest.json", manifest.dump(1) + "\n");
-  write_text(folder.path() / "_extra" / "overview_camera.json",
-             camera_json({overview_camera(), overview_camera_to_world()}));
-  write_text(folder.path() / "_extra" / "view_camera.json", camera_json({view_camera(options.size), {}}));
+  write_png(folder.path() / "_extra" / "contact_sheet.png", picture_table(sheet, kSheetCell_px));
+  write_atomically(folder.path() / "manifest.json", manifest.dump(1) + "\n");
+  write_atomically(folder.path() / "_extra" / "overview_camera.json",
+                   camera_json({overview_camera(), overview_camera_to_world()}));
+  write_atomically(folder.path() / "_extra" / "view_camera.json", camera_json({view_camera(options.size), {}}));
   folder.keep();
   console.result(joined(pictures, " pictures of ", total - left_out, " poses in ", options.output.string(),
                         left_out > 0 ? joined("; ", left_out, " left out, as manifest.json tells") : ""));

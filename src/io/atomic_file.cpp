@@ -138,14 +138,6 @@ class Temporary {
   fs::path path_;
 };
 
-/// Makes the rename last. A folder that may be written but not read, or whose file system syncs no folders, is left to
-/// the system: the file is complete either way.
-void sync_folder(const fs::path& target) {
-  const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.number() < 0) return;
-  if (synced(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
-}
-
 void write_all(const fs::path& target, const fs::path& temporary, std::string_view contents) {
   const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CLOEXEC));
   if (file.number() < 0) fail_to_write(target, errno);
@@ -159,12 +151,18 @@ void write_all(const fs::path& target, const fs::path& temporary, std::string_vi
 
 }  // namespace
 
+void make_rename_last(const fs::path& target) {
+  const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() < 0) return;
+  if (synced(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
+}
+
 void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
   const fs::path target = checked_target(path);
   Temporary temporary(target);
   write(temporary.path());
   temporary.sync_and_rename(target);
-  sync_folder(target);
+  make_rename_last(target);
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {

@@ -25,4 +25,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view conten
 /// or writes besides and which would be lost; empty ones are none.
 void check_can_be_written(const std::filesystem::path& path, const std::vector<std::filesystem::path>& others = {});
 
+/// After something was renamed to `target`: so that it stays so when power fails. A folder that may be written but not
+/// read, or whose file system syncs no folders, is left to the system. Throws Error for a failing disk.
+void make_rename_last(const std::filesystem::path& target);
+
 }  // namespace svnet

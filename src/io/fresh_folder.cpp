@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/atomic_file.h"
 #include "temporary_name.h"
 
 namespace svnet {
@@ -78,6 +79,9 @@ FreshFolder::~FreshFolder() {
   fs::remove_all(partial_, ignored);
 }
 
-void FreshFolder::keep() { give_name(partial_, target_, name_); }
+void FreshFolder::keep() {
+  give_name(partial_, target_, name_);
+  make_rename_last(target_);
+}
 
 }  // namespace svnet
