@@ -213,7 +213,8 @@ TEST_CASE("separable convolutions agree with their two halves") {
           window(2, 5, 4, 21, 3, 1, Padding::same()), window(2, 1, 6, 16, 3, 1, Padding::same()),
           window(1, 2, 23, 80, 3, 1, Padding::same()), window(2, 5, 7, 33, 3, 2, Padding::same()),
           window(1, 6, 19, 70, 3, 2, Padding::same()), window(1, 6, 13, 18, 3, 2, Padding::valid()),
-          window(1, 8, 9, 16, 3, 1, Padding::of(1, 1, 0, 1))})
+          window(1, 8, 9, 16, 3, 1, Padding::of(1, 1, 0, 1)), window(1, 6, 9, 18, 3, 2, Padding::of(0, 0, 2, 0)),
+          window(1, 6, 9, 18, 3, 2, Padding::of(0, 0, 0, 2)), window(1, 6, 9, 18, 3, 1, Padding::of(2, 2, 2, 2))})
       for (bool relu : {false, true}) {
         const Index k = 19, c = w.c;
         INFO(isa << ": " << w.n << "x" << w.h << "x" << w.w << "x" << c << ", stride " << w.stride_h << ", relu "
