@@ -98,6 +98,20 @@ TEST_CASE("a batch that is taken in groups gives what each sample gives alone") 
   CHECK(dense.arena_size(2000) > dense.arena_size(1000));
 }
 
+TEST_CASE("an arena has room for the last group, which may need more scratch memory than a whole one") {
+  Graph graph;
+  NodeId x = graph.input("image", {12, 12, 480});
+  for (const char* name : {"a", "b", "c"})
+    x = graph.add(name, Conv2dLayer{.filters = 480, .kh = 3, .kw = 3, .padding = Padding::same()}, {x});
+  const Inference inference(graph, drawn(graph), x);
+  for (Index batch = 16; batch < 60; ++batch) {
+    INFO(batch);
+    for (Index last = 1; last < 15 && last < batch; ++last)
+      if ((batch - last) % 15 == 0) CHECK(inference.arena_size(batch) >= inference.arena_size(last));
+  }
+  CHECK(inference.arena_size(29) > inference.arena_size(15));  // 15 together, and 14 that are cut into larger blocks
+}
+
 TEST_CASE("a compiled graph computes what its layers say, whichever layer is the output") {
   const Graph graph = all_layers();
   const Parameters parameters = drawn(graph);

@@ -92,11 +92,15 @@ Inference::~Inference() {
 }
 
 Index Inference::arena_size(Index batch) const {
-  batch = std::min(batch, group_);
-  Index scratch = 0;
-  for (const auto& step : program_.steps)
-    scratch = std::max(scratch, step.step->scratch(batch, Parallel::shared().threads()));
-  return memory_.size * batch + scratch;
+  const auto of_group = [&](Index samples) {
+    Index scratch = 0;
+    for (const auto& step : program_.steps)
+      scratch = std::max(scratch, step.step->scratch(samples, Parallel::shared().threads()));
+    return memory_.size * samples + scratch;
+  };
+  if (batch <= group_) return of_group(batch);
+  // Fewer samples may need more scratch memory: blocks of tiles are cut by their number.
+  return std::max(of_group(group_), of_group(batch % group_));
 }
 
 void Inference::run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch,
