@@ -17,7 +17,9 @@ const char* name_of(DType dtype) { return dtype == DType::f64 ? "f64" : "f32"; }
 
 Index element_count(const Shape& shape) {
   Index count = 1;
-  for (Index size : shape) count *= size;
+  for (Index size : shape)
+    check(!__builtin_mul_overflow(count, size, &count), "[tensor] ", to_string(shape),
+          " has more numbers than can be counted");
   return count;
 }
 

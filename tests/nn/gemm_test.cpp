@@ -73,6 +73,9 @@ TEST_CASE("gemm multiplies at odd sizes and around its tiles") {
 }
 
 TEST_CASE("gemm over no terms gives zeros, or what was there when it accumulates") {
-  check_sizes<float>(
-      {{.m = 3, .n = 70, .k = 0}, {.m = 400, .n = 2, .k = 0}, {.m = 0, .n = 4, .k = 5}, {.m = 4, .n = 0, .k = 5}});
+  check_sizes<float>({{.m = 3, .n = 70, .k = 0},
+                      {.m = 400, .n = 2, .k = 0},
+                      {.m = 0, .n = 4, .k = 5},
+                      {.m = 4, .n = 0, .k = 5},
+                      {.m = 400, .n = 0, .k = 5}});
 }

@@ -135,4 +135,12 @@ TEST_CASE("a layer with attributes that make no sense is refused by its name") {
                     "[graph] layer 'drop': [Dropout] rate 1 is outside [0, 1)");
   CHECK_THROWS_WITH(g.add("pad", ZeroPadding2dLayer{Padding::of(0, -1, 0, 0)}, {image}),
                     "[graph] layer 'pad': [ZeroPadding2D] needs four numbers of zeros, none negative");
+  // Sizes whose sums or products would not fit into 64 bits.
+  constexpr Index kHuge = Index{1} << 62;
+  CHECK_THROWS_WITH(g.add("pad", ZeroPadding2dLayer{Padding::of(kHuge, kHuge, 0, 0)}, {image}),
+                    Catch::Contains("zeros are too many"));
+  CHECK_THROWS_WITH(g.add("conv", Conv2dLayer{.filters = 4, .kh = kHuge}, {image}), Catch::Contains("is too large"));
+  const NodeId large = g.add("large", ZeroPadding2dLayer{Padding::of(1 << 18, 0, 1 << 18, 0)}, {image});
+  CHECK_THROWS_WITH(g.add("wide", Conv2dLayer{.filters = 256}, {large}),
+                    Catch::Contains("[Conv2D] gives 262152x262152x256, which is empty or too large"));
 }

@@ -98,9 +98,10 @@ Shape unchecked_output_shape(const Layer& layer, const std::vector<Shape>& input
           },
           [&](const ZeroPadding2dLayer& l) -> Shape {
             check(one().size() == 3, "[ZeroPadding2D] expects images HxWxC, got ", to_string(one()));
-            check(l.padding.kind == Padding::Kind::explicit_ &&
-                      std::min({l.padding.top, l.padding.bottom, l.padding.left, l.padding.right}) >= 0,
+            const auto [least, most] = std::minmax({l.padding.top, l.padding.bottom, l.padding.left, l.padding.right});
+            check(l.padding.kind == Padding::Kind::explicit_ && least >= 0,
                   "[ZeroPadding2D] needs four numbers of zeros, none negative");
+            check(most < kLargestWindow, "[ZeroPadding2D] ", most, " zeros are too many");
             return {one()[0] + l.padding.top + l.padding.bottom, one()[1] + l.padding.left + l.padding.right, one()[2]};
           },
           [&](const AddLayer&) -> Shape {
@@ -140,9 +141,13 @@ Shape unchecked_output_shape(const Layer& layer, const std::vector<Shape>& input
 
 Shape output_shape(const Layer& layer, const std::vector<Shape>& inputs) {
   Shape shape = unchecked_output_shape(layer, inputs);
-  constexpr Index kLargest = Index{1} << 31;
-  for (Index size : shape)
-    check(size > 0 && size < kLargest, "[", kind(layer), "] gives ", to_string(shape), ", which is empty or too large");
+  constexpr Index kMostOfAxis = Index{1} << 31, kMost = Index{1} << 40;
+  Index count = 1;
+  for (Index size : shape) {
+    check(size > 0 && size < kMostOfAxis && count <= kMost / size, "[", kind(layer), "] gives ", to_string(shape),
+          ", which is empty or too large");
+    count *= size;
+  }
   return shape;
 }
 

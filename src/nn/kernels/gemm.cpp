@@ -46,6 +46,7 @@ void gemm_serial(const GemmShape& shape, const T* a, const T* b, T* c) {
 
 template <class T>
 void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c) {
+  if (shape.m == 0 || shape.n == 0) return;
   const GemmShape whole = with_leading_dimensions(shape);
   // Tall tiles amortise OpenBLAS' packing of b; wide ones its packing of a.
   const Index rows = std::min<Index>(whole.m, 384);

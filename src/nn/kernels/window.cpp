@@ -16,6 +16,9 @@ Axis along(const char* operation, const char* axis, Index size, Index kernel, In
   check(kernel > 0 && stride > 0, "[", operation, "] kernel ", kernel, " and stride ", stride, " along the ", axis,
         " must be positive");
   check(before >= 0 && after >= 0, "[", operation, "] padding along the ", axis, " is negative");
+  const Index most = std::max({kernel, stride, before, after});
+  check(most < kLargestWindow, "[", operation, "] a window, stride or padding of ", most, " along the ", axis,
+        " is too large");
   if (padding.kind == Padding::Kind::same) {
     const Index outputs = (size + stride - 1) / stride;
     return {std::max<Index>((outputs - 1) * stride + kernel - size, 0) / 2, outputs};

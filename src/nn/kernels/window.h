@@ -19,6 +19,9 @@ struct Padding {
 };
 
 /// A window that slides over images x (N, H, W, C) and gives (N, OH, OW, …): what convolution and pooling share.
+/// Sizes of windows, strides and paddings are below it, so that sums of them fit.
+constexpr Index kLargestWindow = Index{1} << 31;
+
 /// Window (oh, ow) covers rows oh·stride_h − top + [0, kh) and columns ow·stride_w − left + [0, kw).
 struct Window {
   Index n, h, w, c;

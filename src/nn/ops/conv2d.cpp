@@ -12,7 +12,8 @@ namespace {
 
 Window window(const char* op, const Tensor& x, const Tensor& w, const ConvOptions& o) {
   check_operands(op, {x, w});
-  check(x.rank() == 4 && w.rank() == 4, "[", op, "] expects images NxHxWxC and a weight of rank 4, got ", shapes(x, w));
+  check(x.rank() == 4 && w.rank() == 4 && w.size() > 0, "[", op,
+        "] expects images NxHxWxC and a weight of rank 4, got ", shapes(x, w));
   check(x.dim(3) == w.dim(2), "[", op, "] input has ", x.dim(3), " channels, weight expects ", w.dim(2), " (",
         shapes(x, w), ")");
   return window_over(

@@ -30,7 +30,8 @@ Tensor made_together(Team* team, Index rows, Index columns, DType dtype, const M
 
 Tensor dense(const Tensor& x, const Tensor& w, Team* team) {
   check_operands("dense", {x, w});
-  check(x.rank() == 2 && w.rank() == 2, "[dense] expects rows MxC and a weight CxK, got ", shapes(x, w));
+  check(x.rank() == 2 && w.rank() == 2 && w.size() > 0, "[dense] expects rows MxC and a weight CxK, got ",
+        shapes(x, w));
   check(x.dim(1) == w.dim(0), "[dense] input has ", x.dim(1), " features, weight expects ", w.dim(0), " (",
         shapes(x, w), ")");
   const Index m = x.dim(0), c = x.dim(1), k = w.dim(1);
