@@ -14,9 +14,9 @@ namespace svnet {
 /// the format's metadata.
 class TensorFile {
  public:
-  /// `kind` ("model", "checkpoint") must be the description's "kind", and "format" the number that this version writes.
-  /// Throws Error that names the file.
-  /// Tensors whose names begin with `left_out` (none where it is empty) are not read.
+  /// `kind` ("model", "checkpoint", "weights") must be the description's "kind", and "format" the number that this
+  /// version writes. Throws Error that names the file. Tensors whose names begin with `left_out` (none where it is
+  /// empty) are not read.
   static TensorFile read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out = "");
   /// The same for the contents of a file that are in memory; `name` is what errors call them.
   static TensorFile parse(const std::string& name, std::span<const std::byte> contents, const std::string& kind);

@@ -13,10 +13,11 @@ namespace {
 /// Poses that the head sees at once: enough to read its weights seldom, few enough that repeated features stay small.
 constexpr Index kPosesAtOnce = 32;
 
-void check_finite(const Tensor& values, const char* what) {
+/// `first`: the number of the first value.
+void check_finite(const Tensor& values, const char* what, std::size_t first = 0) {
   const auto numbers = values.values<float>();
   for (std::size_t i = 0; i < numbers.size(); ++i)
-    check(std::isfinite(numbers[i]), "[predict] ", what, " ", i, " is ", numbers[i], ", not a finite number");
+    check(std::isfinite(numbers[i]), "[predict] ", what, " ", first + i, " is ", numbers[i], ", not a finite number");
 }
 
 }  // namespace
@@ -70,7 +71,7 @@ std::vector<float> Predictor::scores(const Tensor& features, std::span<const Pos
         encode_angles(angles_, theta_deg, pose.phi_deg, encoded.data<float>() + i * angles);
       }
       const Tensor values = head_.run({repeated, encoded});
-      check_finite(values, "score");
+      check_finite(values, "score", static_cast<std::size_t>(begin));
       for (Index i = 0; i < size; ++i)
         result[static_cast<std::size_t>(begin + i)] += values.data<float>()[i] / static_cast<float>(orientations_);
     }

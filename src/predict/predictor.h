@@ -11,7 +11,7 @@
 namespace svnet {
 
 /// A trained model, ready to say which views of an object are worth taking: a top image becomes features once, and
-/// features with a camera pose become a score in (0, 1). Safe to use from several threads at once.
+/// features with a camera pose become a score in [0, 1]. Safe to use from several threads at once.
 class Predictor {
  public:
   /// Throws Error that names the file and what is wrong with it.

@@ -42,17 +42,21 @@ const GlobalHeap::Collection& GlobalHeap::collection(std::uint64_t address, cons
   const std::vector<char> start = file_.bytes(address, kHeader, where);
   Bytes header(start, refusal);
   if (std::memcmp(header.take(8).data(), "GCOL\1", 5) != 0) header.refuse();
+  const std::uint64_t size = header.number(8);
+  if (size > collections_left_)
+    file_.fail_at(where, "its strings lie in collections that overlap; the file is damaged");
+  collections_left_ -= size;
   Collection collection;
-  collection.bytes = file_.bytes(address, header.number(8), where);
+  collection.bytes = file_.bytes(address, size, where);
   Bytes left(collection.bytes, refusal);
   left.skip(kHeader);
   while (left.size() >= kObject) {
     const auto number = static_cast<std::uint32_t>(left.number(2));
     if (number == 0) break;  // free space, always last
     left.skip(6);
-    const std::uint64_t size = left.number(8);
-    collection.objects[number] = left.take(size);
-    left.skip(std::min((8 - size % 8) % 8, left.size()));
+    const std::uint64_t length = left.number(8);
+    collection.objects[number] = left.take(length);
+    left.skip(std::min((8 - length % 8) % 8, left.size()));
   }
   return collections_[address] = std::move(collection);  // moving keeps the bytes where they are
 }

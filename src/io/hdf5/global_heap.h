@@ -24,7 +24,7 @@ Handle text_reference_type();
 /// The strings of a file's global heap ("HDF5 File Format Specification" 3.0, III.E), every length checked.
 class GlobalHeap {
  public:
-  explicit GlobalHeap(const File& file) : file_(file), text_left_(file.size) {}
+  explicit GlobalHeap(const File& file) : file_(file), text_left_(file.size), collections_left_(file.size) {}
   /// Throws Error that names `where` if the reference leads nowhere, or if more text was asked for than the file holds.
   std::string text(const TextReference& reference, const std::string& where);
 
@@ -36,7 +36,7 @@ class GlobalHeap {
   const Collection& collection(std::uint64_t address, const std::string& where);
 
   const File& file_;
-  std::uint64_t text_left_;
+  std::uint64_t text_left_, collections_left_;  // bytes that the file can hold and that were not asked for yet
   std::map<std::uint64_t, Collection> collections_;
 };
 

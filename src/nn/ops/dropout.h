@@ -12,7 +12,7 @@ struct DropoutKey {
   std::uint64_t index = 0;
 };
 
-/// Training: each number is 0 with probability `rate` (in [0, 1), rounded to a multiple of 2^-32), otherwise
+/// Training: each number is 0 with probability `rate` (in [0, 1), in multiples of 2^-32), otherwise
 /// multiplied by 1 / (1 − rate). Inference needs no operation. At most 2^34 elements.
 Tensor dropout(const Tensor& x, double rate, const DropoutKey& key);
 

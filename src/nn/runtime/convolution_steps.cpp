@@ -138,7 +138,7 @@ class ExpandedSeparable : public Separable {
     return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.k * expansion_.n);
   }
   double weight_bytes() const override {
-    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.k * expansion_.n);
+    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.depth * expansion_.n);
   }
 
  private:
