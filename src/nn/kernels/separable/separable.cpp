@@ -172,8 +172,8 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
   const auto [inner0, inner1] = win.inner_columns();
   // Rows of windows that reach one column at most out of the image.
   const Index right = (win.ow - 1) * win.stride_w - win.left + win.kw - win.w;
-  const bool threes = win.kw == 3 && win.kh == 3 && (win.stride_w == 1 || win.stride_w == 2) && inner0 <= 1 &&
-                      inner1 >= win.ow - 1 && win.left <= 1 && right <= 1;
+  const bool threes =
+      win.kw == 3 && win.kh == 3 && (win.stride_w == 1 || win.stride_w == 2) && win.left <= 1 && right <= 1;
   const auto& rows_of_threes = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1> : kRowsOfThrees<kRelu, 2>;
   const Bounds bounds(weights.clamp);
   const Index apart = end - begin, step = win.stride_w * win.c, tap_stride = panels(win.c) * kPanel;
