@@ -13,6 +13,7 @@
 #include "io/safetensors.h"
 #include "io/scores_file.h"
 #include "nn/tensor.h"
+#include "train/scores_stage.h"
 
 namespace svnet {
 namespace {
@@ -28,28 +29,13 @@ std::string describe_features(const std::filesystem::path& file) {
 
 std::string describe_scores(const std::filesystem::path& file) {
   const Scores s = read_scores(file);
-  std::uint64_t least = ~std::uint64_t{0}, most = 0;
-  double error = 0, stability = 0;
-  std::size_t ranked = 0;
-  std::size_t excluded = 0;
-  for (std::size_t i = 0; i < s.count.size(); ++i) {
-    if (s.count[i] == 0) {
-      ++excluded;
-      continue;
-    }
-    least = std::min(least, s.count[i]);
-    most = std::max(most, s.count[i]);
-    if (std::isfinite(s.standard_error[i])) error = std::max(error, s.standard_error[i]);
-    if (!std::isfinite(s.rank_stability[i])) continue;
-    ++ranked;
-    stability += s.rank_stability[i];
-  }
+  const ScoresSummary known = summary(s);
   return joined("semantic scores of ", s.paths.size(), " views\n  problems        ", s.problems, ", seed ", s.seed,
                 "\n  sampler         ", printable(s.sampler), "\n  clustering      ", printable(s.clustering),
-                ", metric ", printable(s.metric), "\n  views without   ", excluded, "\n  problems a view ",
-                most == 0 ? std::string("none") : joined(least, " to ", most), "\n  standard error  at most ", error,
-                "\n  rank stability  ",
-                ranked == 0 ? std::string("none") : joined(stability / static_cast<double>(ranked), " on average"),
+                ", metric ", printable(s.metric), "\n  views without   ", known.left_out, "\n  problems a view ",
+                known.most == 0 ? std::string("none") : joined(known.fewest, " to ", known.most),
+                "\n  standard error  at most ", known.largest_error, "\n  rank stability  ",
+                std::isnan(known.mean_stability) ? std::string("none") : joined(known.mean_stability, " on average"),
                 "\n  fingerprint     ", printable(s.input_fingerprint));
 }
 

@@ -1,5 +1,7 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
+#include <limits>
 
 #include "base/progress.h"
 #include "base/team.h"
@@ -38,6 +40,14 @@ struct ScoresRun {
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoresRun& run);
+
+/// How many problems views were in, and how well their scores are known. Means over nothing are NaN.
+struct ScoresSummary {
+  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max(), most = 0;  ///< problems of a view that was in any
+  std::size_t left_out = 0;                                                    ///< views that were in none
+  double largest_error = 0, mean_error = 0, mean_stability = 0;
+};
+ScoresSummary summary(const Scores& scores);
 
 /// How well scores are known, in a line or two.
 std::string certainty_text(const Scores& scores);
