@@ -6,6 +6,7 @@
 #include "image/image.h"
 #include "io/model_file.h"
 #include "nn/runtime/inference.h"
+#include "predict/score_head.h"
 #include "view/pose.h"
 
 namespace svnet {
@@ -19,23 +20,20 @@ class Predictor {
   explicit Predictor(const Model& model);
 
   /// The number D of features: of all orientations of the top image that the model looks at.
-  Index feature_count() const { return feature_count_; }
+  Index feature_count() const { return head_.feature_count(); }
 
   /// Features (1, D) of a top image of any size. Throws Error for an image without pixels, or whose rgb has another
   /// size than its height and width say, and where a feature is not finite.
   Tensor embed(const Image& top) const;
 
-  /// One score per pose, in order. Poses a whole turn apart have the same score. Throws Error unless features are
-  /// (1, D) finite f32, and every pose is in range (view/pose.h). A score does not depend on the
-  /// poses that it is asked for together with.
+  /// As ScoreHead::scores, of features that embed returned.
   std::vector<float> scores(const Tensor& features, std::span<const Pose> poses) const;
 
  private:
   Preprocessing preprocessing_;
-  AngleEncoding angles_;
   int orientations_;
-  Index feature_count_;
-  Inference backbone_, head_;
+  Inference backbone_;
+  ScoreHead head_;
 };
 
 /// The number of the highest score, the first among equals. Throws Error where there is none.

@@ -9,7 +9,7 @@
 #include "io/checkpoint.h"
 #include "models/orientation.h"
 #include "models/trained_graph.h"
-#include "predict/predictor.h"
+#include "predict/score_head.h"
 #include "train/epoch_order.h"
 #include "train/reused_file.h"
 #include "train/run.h"
@@ -217,8 +217,8 @@ std::vector<double> Run::predicted_scores(const Model& model) {
                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
                                                                     model.backbone_graph.find(model.backbone_output)),
                                         PictureInputs::Options{.orientations = model.orientations, .flat = true});
-  const Predictor predictor(model);
-  const Index dimension = predictor.feature_count();
+  const ScoreHead head(model);
+  const Index dimension = head.feature_count();
   const auto poses = std::span(dataset_.poses);
   std::vector<double> predicted;
   constexpr std::size_t kPoses = 16;  // whose pictures are looked at together
@@ -237,7 +237,7 @@ std::vector<double> Run::predicted_scores(const Model& model) {
            std::span(dataset_.views)
                .subspan(static_cast<std::size_t>(part[p].first_view), static_cast<std::size_t>(part[p].view_count)))
         candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
-      const std::vector<float> scores = predictor.scores(top, candidates);
+      const std::vector<float> scores = head.scores(top, candidates);
       predicted.insert(predicted.end(), scores.begin(), scores.end());
     }
   }

@@ -1,0 +1,12 @@
+#pragma once
+#include <cstddef>
+
+#include "nn/tensor.h"
+
+namespace svnet {
+
+/// Throws Error for a value that is not finite: "[predict] feature 7 is nan, …". `first`: the number of the first
+/// value.
+void check_finite(const Tensor& values, const char* what, std::size_t first = 0);
+
+}  // namespace svnet
