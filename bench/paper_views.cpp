@@ -8,8 +8,8 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "io/features_file.h"
-#include "io/view_dataset.h"
+#include "io/views/dataset_folder.h"
+#include "io/views/features_file.h"
 
 namespace svnet {
 namespace {

@@ -1,20 +1,11 @@
-# svnet_library(NAME FOLDER f SOURCES ... HEADERS ... [PUBLIC targets] [PRIVATE targets])
+# svnet_library(NAME SOURCES ... [PUBLIC targets] [PRIVATE targets])
 #
-# A static library of the files of src/FOLDER. Its include directory holds links to its own HEADERS alone, under FOLDER/,
-# so that `#include "base/error.h"` compiles only in targets that link svnet_base: a wrong arrow fails to compile.
+# A static library of files of the current folder. Headers are included from src/, as in `#include "base/error.h"`. Which
+# folder may include which is checked by tests/architecture.
 function(svnet_library name)
-  cmake_parse_arguments(ARG "" "FOLDER" "SOURCES;HEADERS;PUBLIC;PRIVATE" ${ARGN})
-  set(source_dir ${PROJECT_SOURCE_DIR}/src/${ARG_FOLDER})
-  set(include_dir ${PROJECT_BINARY_DIR}/include/${name})
-  file(REMOVE_RECURSE ${include_dir})
-  foreach(header IN LISTS ARG_HEADERS)
-    get_filename_component(folder ${include_dir}/${ARG_FOLDER}/${header} DIRECTORY)
-    file(MAKE_DIRECTORY ${folder})
-    file(CREATE_LINK ${source_dir}/${header} ${include_dir}/${ARG_FOLDER}/${header} SYMBOLIC)
-  endforeach()
-  list(TRANSFORM ARG_SOURCES PREPEND ${source_dir}/)
+  cmake_parse_arguments(ARG "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
-  target_include_directories(${name} PUBLIC ${include_dir})
+  target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE svnet_options ${ARG_PRIVATE})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
 endfunction()

@@ -10,7 +10,7 @@
 #include "base/text.h"
 #include "bindings.h"
 #include "computing.h"
-#include "io/backbone_file.h"
+#include "io/models/backbone_file.h"
 
 namespace svnet::python {
 namespace {

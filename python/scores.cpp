@@ -81,8 +81,8 @@ py::dict semantic_scores(const py::object& given_features, const py::object& giv
           problems.views(), " categories, objects and poses");
     const auto distances = features.squared_distances(Parallel::shared());
     ScoreSums sums(problems.views());
-    Alone alone;
-    continue_scores(distances, problems, options, Parallel::shared(), alone, sums,
+    SingleProcess single_process;
+    continue_scores(distances, problems, options, Parallel::shared(), single_process, sums,
                     {.messages = nullptr, .after_step = [](const ScoreSums&) { let_python_interrupt(); }});
     scores = scores_from(sums);
   }

@@ -1,5 +1,5 @@
 #pragma once
-#include "io/model_file.h"
+#include "io/models/model_file.h"
 #include "models/backbone.h"
 
 /// A model with random numbers that is read and run within milliseconds: tiny_xception with a head of width 16.

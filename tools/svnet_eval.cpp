@@ -1,6 +1,7 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
 #include "command/command.h"
-#include "io/atomic_file.h"
+#include "io/files/atomic_file.h"
+#include "io/views/dataset_folder.h"
 #include "train/run.h"
 
 namespace {

@@ -2,10 +2,11 @@
 #include "base/text.h"
 #include "command/command.h"
 #include "command/openblas_cap.h"
-#include "io/atomic_file.h"
-#include "io/backbone_file.h"
-#include "io/file_hash.h"
-#include "mpi/mpi_team.h"
+#include "io/files/atomic_file.h"
+#include "io/files/file_hash.h"
+#include "io/models/backbone_file.h"
+#include "io/views/dataset_folder.h"
+#include "mpi/mpi_communicator.h"
 #include "train/feature_extraction.h"
 
 namespace svnet {
@@ -25,7 +26,7 @@ std::vector<std::filesystem::path> pictures_of(const ViewDataset& dataset) {
   return files;
 }
 
-int run(int argc, char** argv, Team& team) {
+int run(int argc, char** argv, Communicator& communicator) {
   Command command(
       "svnet-features",
       "Writes the features of every picture of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
@@ -53,20 +54,20 @@ int run(int argc, char** argv, Team& team) {
   return command.run(
       argc, argv,
       [&](Console& console) {
-        if (team.first()) check_can_be_written(output, {weights});
+        if (communicator.is_root()) check_can_be_written(output, {weights});
         KerasLoadReport report;
         const BackboneWithOrigin source = source_of(backbone, layer, weights, report);
         if (!weights.empty())
           console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
                               report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
         const ViewDataset dataset = read_view_dataset(images);
-        if (team.first()) check_can_be_written(output, pictures_of(dataset));
+        if (communicator.is_root()) check_can_be_written(output, pictures_of(dataset));
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
-        const Features features = extract_features(source.backbone, dataset, origin, console.messages(), team);
-        if (team.first()) write_features(output, features);
+        const Features features = extract_features(source.backbone, dataset, origin, console.messages(), communicator);
+        if (communicator.is_root()) write_features(output, features);
         console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
       },
-      team);
+      communicator);
 }
 
 }  // namespace
@@ -74,5 +75,5 @@ int run(int argc, char** argv, Team& team) {
 
 int main(int argc, char** argv) {
   svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_of_team(argc, argv, "svnet-features", svnet::run);
+  return svnet::main_with_communicator(argc, argv, "svnet-features", svnet::run);
 }

@@ -3,9 +3,9 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.h"
-#include "io/atomic_file.h"
-#include "io/image_file.h"
-#include "io/pose_list_file.h"
+#include "io/files/atomic_file.h"
+#include "io/images/image_file.h"
+#include "io/views/pose_list_file.h"
 #include "predict/half_sphere_plot.h"
 #include "predict/predictor.h"
 #include "view/pose_grid.h"

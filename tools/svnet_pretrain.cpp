@@ -4,8 +4,9 @@
 #include "base/text.h"
 #include "command/command.h"
 #include "command/number_check.h"
-#include "io/atomic_file.h"
-#include "io/backbone_file.h"
+#include "io/files/atomic_file.h"
+#include "io/models/backbone_file.h"
+#include "io/views/dataset_folder.h"
 #include "train/pretraining.h"
 
 namespace {

@@ -8,15 +8,15 @@
 #include "base/version.h"
 #include "command/command.h"
 #include "command/number_check.h"
-#include "io/atomic_file.h"
-#include "io/camera_file.h"
-#include "io/depth_file.h"
-#include "io/fresh_folder.h"
-#include "io/image_file.h"
+#include "io/files/atomic_file.h"
+#include "io/files/fresh_folder.h"
+#include "io/images/depth_file.h"
+#include "io/images/image_file.h"
+#include "io/views/camera_file.h"
 #include "render/sources.h"
-#include "view/render/catalogue.h"
-#include "view/render/collection.h"
-#include "view/render/picture_table.h"
+#include "simulation/catalogue.h"
+#include "simulation/collection.h"
+#include "simulation/picture_table.h"
 
 namespace {
 

@@ -4,18 +4,18 @@
 #include "command/command.h"
 #include "command/number_check.h"
 #include "command/openblas_cap.h"
-#include "io/atomic_file.h"
-#include "io/features_file.h"
-#include "io/scores_file.h"
-#include "io/view_dataset.h"
-#include "mpi/mpi_team.h"
+#include "io/files/atomic_file.h"
+#include "io/views/dataset_folder.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
+#include "mpi/mpi_communicator.h"
 #include "train/scores_stage.h"
 #include "train/training_set.h"
 
 namespace svnet {
 namespace {
 
-int run(int argc, char** argv, Team& team) {
+int run(int argc, char** argv, Communicator& communicator) {
   Command command("svnet-score",
                   "Writes the Monte-Carlo semantic scores of every view: how well it is clustered in random problems.",
                   "svnet-score --features features.h5 --dataset photos --output scores.h5 --exclude comb,hammer "
@@ -92,7 +92,7 @@ int run(int argc, char** argv, Team& team) {
         s.clustering = clustering_from_name(linkage);
         s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
         config.dataset.held_out = excluded;
-        if (team.first()) check_can_be_written(output, {features_file});
+        if (communicator.is_root()) check_can_be_written(output, {features_file});
         const ViewDataset dataset = read_view_dataset(dataset_folder);
         const Features features = read_features(features_file);
         check_rows(dataset, features.paths, features_file.string());
@@ -107,11 +107,11 @@ int run(int argc, char** argv, Team& team) {
         const Scores scores = make_scores(output, dataset, features, left_out, config, console.messages(),
                                           {.resume = resume ? ScoresRun::Resume::any : ScoresRun::Resume::never,
                                            .snapshot_seconds = snapshot_seconds,
-                                           .team = team});
+                                           .communicator = communicator});
         console.result(joined(output.string(), ": ", scores.problems, " problems"));
         console.result(certainty_text(scores));
       },
-      team);
+      communicator);
 }
 
 }  // namespace
@@ -119,5 +119,5 @@ int run(int argc, char** argv, Team& team) {
 
 int main(int argc, char** argv) {
   svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_of_team(argc, argv, "svnet-score", svnet::run);
+  return svnet::main_with_communicator(argc, argv, "svnet-score", svnet::run);
 }

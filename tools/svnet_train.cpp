@@ -1,14 +1,15 @@
 // svnet-train: pictures become features, features scores, scores train SV-net.
 #include "command/command.h"
 #include "command/openblas_cap.h"
-#include "mpi/mpi_team.h"
+#include "io/views/dataset_folder.h"
+#include "mpi/mpi_communicator.h"
 #include "train/run.h"
 #include "train/run_folder.h"
 
 namespace svnet {
 namespace {
 
-int run(int argc, char** argv, Team& team) {
+int run(int argc, char** argv, Communicator& communicator) {
   Command command("svnet-train",
                   "Runs every stage of a configuration into a run folder: features, scores, training, model.",
                   "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos\n"
@@ -38,18 +39,18 @@ int run(int argc, char** argv, Team& team) {
         const Config config = read_config(config_file, overrides);
         ViewDataset dataset = read_view_dataset(config.dataset.root);
         if (dry) {
-          if (team.first()) dry_run(config, dataset, console.messages());
+          if (communicator.is_root()) dry_run(config, dataset, console.messages());
           console.result("dry run: every stage works");
           return;
         }
         if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
         check_run_folder(output, config.dataset.root);
         console.log_to(output / "log.txt");
-        Run run(config, std::move(dataset), output, console.messages(), team);
+        Run run(config, std::move(dataset), output, console.messages(), communicator);
         run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);
         console.result((output / "model.safetensors").string());
       },
-      team);
+      communicator);
 }
 
 }  // namespace
@@ -57,5 +58,5 @@ int run(int argc, char** argv, Team& team) {
 
 int main(int argc, char** argv) {
   svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_of_team(argc, argv, "svnet-train", svnet::run);
+  return svnet::main_with_communicator(argc, argv, "svnet-train", svnet::run);
 }

@@ -16,8 +16,8 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 
 namespace svnet {
 namespace {
@@ -229,7 +229,7 @@ Parallel::Parallel(int threads)
   pool_->start(checked_threads(threads, "threads"));
 }
 
-Parallel Parallel::share(const Team& team) const { return {pool_, team}; }
+Parallel Parallel::share(const Communicator& communicator) const { return {pool_, communicator}; }
 
 int Parallel::threads() const { return pool_->threads; }
 
@@ -254,8 +254,8 @@ void Parallel::for_chunks(Index count, Index chunk, Body body) {
   if (count <= 0) return;
   chunk = std::max<Index>(chunk, 1);
   Index first = 0, chunks = (count + chunk - 1) / chunk;
-  if (team_ != nullptr) {
-    const Share share = share_of(*team_, 0, static_cast<std::uint64_t>(chunks));
+  if (communicator_ != nullptr) {
+    const Share share = share_of(*communicator_, 0, static_cast<std::uint64_t>(chunks));
     first = static_cast<Index>(share.first);
     chunks = static_cast<Index>(share.last);
   }

@@ -6,7 +6,7 @@
 
 namespace svnet {
 
-class Team;
+class Communicator;
 
 /// A thread pool that cuts ranges into chunks whose boundaries never depend on the number of threads, so that work
 /// which writes per chunk, or sums per chunk in order, gives the same bits for any number of threads.
@@ -35,18 +35,19 @@ class Parallel {
   void for_chunks(Index count, Index chunk, Body body);
 
   /// The same threads for this process's share of the chunks of each range: for work whose chunks write apart, where
-  /// the processes of the team gather afterwards what each has written. The team must outlive it.
-  Parallel share(const Team& team) const;
+  /// the processes of the communicator gather afterwards what each has written. The communicator must outlive it.
+  Parallel share(const Communicator& communicator) const;
 
   /// The pool of the process. It starts with SVNET_THREADS threads, or as many as the affinity mask has CPUs.
   static Parallel& shared();
 
  private:
   struct Pool;
-  Parallel(std::shared_ptr<Pool> pool, const Team& team) : pool_(std::move(pool)), team_(&team) {}
+  Parallel(std::shared_ptr<Pool> pool, const Communicator& communicator)
+      : pool_(std::move(pool)), communicator_(&communicator) {}
 
   std::shared_ptr<Pool> pool_;
-  const Team* team_ = nullptr;
+  const Communicator* communicator_ = nullptr;
 };
 
 }  // namespace svnet

@@ -1,13 +1,14 @@
 #include <iostream>
 
 #include "launcher.h"
-#include "mpi/mpi_team.h"
+#include "mpi/mpi_communicator.h"
 
 namespace svnet {
 
 bool built_with_mpi() { return false; }
 
-int main_of_team(int argc, char** argv, const char* name, int (*run)(int argc, char** argv, Team& team)) {
+int main_with_communicator(int argc, char** argv, const char* name,
+                           int (*run)(int argc, char** argv, Communicator& communicator)) {
   if (started_by_launcher()) {
     std::cerr << name
               << ": started by mpirun or srun, but built without MPI; install libopenmpi-dev and build again, or start "
@@ -15,8 +16,8 @@ int main_of_team(int argc, char** argv, const char* name, int (*run)(int argc, c
               << std::endl;
     return 1;
   }
-  Alone alone;
-  return run(argc, argv, alone);
+  SingleProcess single_process;
+  return run(argc, argv, single_process);
 }
 
 }  // namespace svnet

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "image/image.h"
-#include "io/model_file.h"
+#include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
 #include "predict/score_head.h"
 #include "view/pose.h"

@@ -2,7 +2,7 @@
 #include <span>
 #include <vector>
 
-#include "io/model_file.h"
+#include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
 #include "view/pose.h"
 

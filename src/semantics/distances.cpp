@@ -121,7 +121,8 @@ DistanceMatrix::DistanceMatrix(Index n)
       values_((check(n >= 0, "[distances] ", n, " rows"), static_cast<std::size_t>(n * stride_))) {}
 
 template <class T>
-DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel, Team& team) {
+DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
+                                 Communicator& communicator) {
   check(n >= 1 && dimension >= 1, "[distances] features are ", n, "x", dimension, "; at least 1x1 is needed");
   check_finite(features, n, dimension, parallel);
   CentredFeatures<T> x{features, n, dimension, column_means(features, n, dimension, parallel), std::vector<double>(n)};
@@ -145,16 +146,16 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
   for (Index i = 0; i < n; i += kTile)
     for (Index j = i; j < n; j += kTile) tiles.push_back({i, j});
   std::vector<TileScratch> scratch(parallel.threads());
-  const Share share = share_of(team, 0, tiles.size());
+  const Share share = share_of(communicator, 0, tiles.size());
   parallel.for_chunks(static_cast<Index>(share.last - share.first), 1, [&](Index begin, Index, int worker) {
     const Tile& tile = tiles[share.first + static_cast<std::uint64_t>(begin)];
     distance_tile(x, tile.i, tile.j, scratch[worker], distances);
   });
-  team.gather(distances.values());
+  communicator.all_reduce(distances.values());
   return distances;
 }
 
-template DistanceMatrix squared_distances(const float*, Index, Index, Parallel&, Team&);
-template DistanceMatrix squared_distances(const double*, Index, Index, Parallel&, Team&);
+template DistanceMatrix squared_distances(const float*, Index, Index, Parallel&, Communicator&);
+template DistanceMatrix squared_distances(const double*, Index, Index, Parallel&, Communicator&);
 
 }  // namespace svnet

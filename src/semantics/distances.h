@@ -1,9 +1,9 @@
 #pragma once
 #include <span>
 
+#include "base/communicator.h"
 #include "base/index.h"
 #include "base/parallel.h"
-#include "base/team.h"
 #include "semantics/aligned_array.h"
 
 namespace svnet {
@@ -29,10 +29,10 @@ class DistanceMatrix {
 /// The squared distances between the rows of features (n, dimension), float or double. Features are centred by their
 /// mean, products are accumulated in double, and only the distance is rounded to float32; rows that nearly coincide are
 /// subtracted directly, so that equal rows have distance 0. The same bits for any number of threads, and of processes:
-/// a team, all of which has the features, shares the work. Throws Error for an empty shape, for a feature that is not
-/// finite, for a distance beyond 1e30, and where rows differ, but none is farther than 1e-15 from their mean.
+/// a communicator, all of which has the features, shares the work. Throws Error for an empty shape, for a feature that
+/// is not finite, for a distance beyond 1e30, and where rows differ, but none is farther than 1e-15 from their mean.
 template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
-                                 Team& team = Alone::shared());
+                                 Communicator& communicator = SingleProcess::shared());
 
 }  // namespace svnet

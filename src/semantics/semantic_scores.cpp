@@ -80,7 +80,7 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 }  // namespace
 
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                     Parallel& parallel, Team& team, ScoreSums& sums, const ScoreProgress& watch) {
+                     Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& watch) {
   check_rules(options);
   check(static_cast<Index>(sums.views.size()) == problems.views(), "[scores] the sums so far are of ",
         sums.views.size(), " views, the problems of ", problems.views());
@@ -99,10 +99,10 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
     check(last <= ScoreSums::kMostProblems, "[scores] ", sums.problems,
           " problems are solved and the rules ask for more; ", "the sums hold ", ScoreSums::kMostProblems,
           ": raise target_error or lower min_samples");
-    last = team.from_first(last);
-    const Share share = share_of(team, sums.problems, last);
+    last = communicator.broadcast(last);
+    const Share share = share_of(communicator, sums.problems, last);
     solver.solve(share.first, share.last, step);
-    team.sum(step.numbers());
+    communicator.all_reduce(step.numbers());
     step.problems = last - sums.problems;
     sums.take(step);
     // What is expected may be too little: the task must not look finished before it is.
@@ -116,8 +116,9 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
 SemanticScores semantic_scores(const DistanceMatrix& distances, const ClusteringProblems& problems,
                                const ScoreOptions& options, Parallel& parallel, const Messages& messages) {
   ScoreSums sums(problems.views());
-  Alone alone;
-  continue_scores(distances, problems, options, parallel, alone, sums, {.messages = &messages, .after_step = {}});
+  SingleProcess single_process;
+  continue_scores(distances, problems, options, parallel, single_process, sums,
+                  {.messages = &messages, .after_step = {}});
   return scores_from(sums);
 }
 

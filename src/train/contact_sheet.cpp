@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "image/resize.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 namespace svnet {
 namespace {

@@ -7,11 +7,11 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/features_file.h"
 #include "io/hdf5/hdf5_file.h"
-#include "io/keras_weights.h"
-#include "io/safetensors.h"
-#include "io/scores_file.h"
+#include "io/keras/keras_weights.h"
+#include "io/tensors/safetensors.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
 #include "nn/tensor.h"
 #include "train/scores_stage.h"
 

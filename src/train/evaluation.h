@@ -5,7 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/progress.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
 #include "semantics/cluster_metrics.h"
 #include "semantics/clusterer.h"
 #include "semantics/clustering_problems.h"

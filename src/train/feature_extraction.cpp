@@ -7,9 +7,9 @@
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "io/backbone_file.h"
-#include "io/file_hash.h"
-#include "io/image_file.h"
+#include "io/files/file_hash.h"
+#include "io/images/image_file.h"
+#include "io/models/backbone_file.h"
 
 namespace svnet {
 namespace {
@@ -68,7 +68,7 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
 }
 
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages, Team& team) {
+                          const Messages& messages, Communicator& communicator) {
   const auto count = static_cast<Index>(dataset.views.size());
   const Index dimension = backbone.dimension();
   Features features{origin, count, dimension, {}, {}, {}};
@@ -77,8 +77,8 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
-  // Shares are whole batches, as they would be without a team.
-  const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
+  // Shares are whole batches, as they would be without a communicator.
+  const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
   const Index first = static_cast<Index>(share.first) * kBatch;
   const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
   Progress progress(messages, "features of " + backbone.kind().name, std::max<Index>(last - first, 0));
@@ -104,7 +104,7 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
     std::copy_n(values.data<float>(), values.size(), features.values.data() + begin * dimension);
     progress.update(begin + size - first);
   }
-  team.gather(features.values);
+  communicator.all_reduce(features.values);
   return features;
 }
 

@@ -1,18 +1,18 @@
 #pragma once
+#include "base/communicator.h"
 #include "base/progress.h"
-#include "base/team.h"
-#include "io/features_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/views/features_file.h"
 #include "models/backbone.h"
 
 namespace svnet {
 
 /// Features of every view of the dataset, in its order. While a batch runs through the backbone, the pictures of the
 /// next one are read and prepared by threads of their own (with one thread in all: one after the other). The same bits
-/// for any number of threads, and whatever pictures share a batch. `origin` is copied into the result. A team shares
-/// the batches; each of its processes gets all features.
+/// for any number of threads, and whatever pictures share a batch. `origin` is copied into the result. A communicator
+/// shares the batches; each of its processes gets all features.
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages, Team& team);
+                          const Messages& messages, Communicator& communicator);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const Preprocessing& preprocessing);

@@ -1,7 +1,7 @@
 #include "train/labelled_pictures.h"
 
 #include "base/parallel.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 namespace svnet {
 

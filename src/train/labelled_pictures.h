@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
 #include "models/preprocessing.h"
 #include "nn/tensor.h"
 #include "train/augmentation.h"

@@ -6,7 +6,7 @@
 #include <sstream>
 
 #include "base/text.h"
-#include "io/model_file.h"
+#include "io/models/model_file.h"
 #include "models/backbone.h"
 
 namespace svnet {

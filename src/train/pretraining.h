@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/progress.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
 #include "models/backbone.h"
 #include "train/augmentation.h"
 

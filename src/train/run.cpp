@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "io/views/dataset_folder.h"
 #include "train/reused_file.h"
 #include "train/scores_stage.h"
 #include "train/trained_from.h"
@@ -10,11 +11,11 @@
 namespace svnet {
 namespace fs = std::filesystem;
 
-Run::Run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages, Team& team)
+Run::Run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages, Communicator& communicator)
     : config_(std::move(config)),
       folder_(std::move(folder)),
       messages_(messages),
-      team_(team),
+      communicator_(communicator),
       dataset_(std::move(dataset)),
       held_out_(named_categories(dataset_, config_.dataset.held_out, "dataset.held_out")) {
   const auto training = std::count(held_out_.begin(), held_out_.end(), false);
@@ -79,12 +80,12 @@ const Features& Run::features(const std::string& name, const std::string& layer)
 Features Run::made_features(const fs::path& path, const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, dataset_fingerprint_);
-  if (auto features = reused_file(path, origin.input_fingerprint, read_features, team_, messages_)) {
+  if (auto features = reused_file(path, origin.input_fingerprint, read_features, communicator_, messages_)) {
     say(joined("features of ", name, ": reused ", path.filename().string()));
     return std::move(*features);
   }
-  Features features = extract_features(source.backbone, dataset_, origin, messages_, team_);
-  if (team_.first()) write_features(path, features);
+  Features features = extract_features(source.backbone, dataset_, origin, messages_, communicator_);
+  if (communicator_.is_root()) write_features(path, features);
   return features;
 }
 

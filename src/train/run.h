@@ -4,12 +4,12 @@
 #include <memory>
 #include <optional>
 
+#include "base/communicator.h"
 #include "base/progress.h"
-#include "base/team.h"
-#include "io/features_file.h"
-#include "io/model_file.h"
-#include "io/scores_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/models/model_file.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
 #include "train/config/config.h"
 #include "train/evaluation_text.h"
 #include "train/feature_extraction.h"
@@ -20,8 +20,8 @@ namespace svnet {
 /// One run: a configuration, its dataset and its folder. Each stage takes what the stages before it left in the folder,
 /// and is not run again while everything it depends on, down to the contents of pictures and weights, is the same:
 /// its file says so by a fingerprint, and the log says which stages were reused.
-/// Where the backbone is trained as well, it takes the pictures themselves. The processes of a team share the work;
-/// each of them gets all results, the first one alone writes files.
+/// Where the backbone is trained as well, it takes the pictures themselves. The processes of a communicator share the
+/// work; each of them gets all results, the first one alone writes files.
 ///   features-<backbone>[-<layer>].h5 -> scores.h5 -> checkpoint-*.safetensors, metrics.csv, model.safetensors ->
 ///   evaluation.json, views.png
 class Run {
@@ -30,7 +30,7 @@ class Run {
   /// layers, weights, pipelines, problems. The folder is made where it does not exist. Throws Error for what does not
   /// fit.
   Run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages,
-      Team& team = Alone::shared());
+      Communicator& communicator = SingleProcess::shared());
 
   const Config& config() const { return config_; }
   const ViewDataset& dataset() const { return dataset_; }
@@ -77,7 +77,7 @@ class Run {
   Config config_;
   std::filesystem::path folder_;
   Messages messages_;
-  Team& team_;
+  Communicator& communicator_;
   ViewDataset dataset_;
   std::vector<bool> held_out_;  // per category
   std::string dataset_fingerprint_;

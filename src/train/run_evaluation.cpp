@@ -5,8 +5,8 @@
 #include <system_error>
 
 #include "base/parallel.h"
-#include "io/atomic_file.h"
-#include "io/image_file.h"
+#include "io/files/atomic_file.h"
+#include "io/images/image_file.h"
 #include "train/clustering_choice.h"
 #include "train/contact_sheet.h"
 #include "train/run.h"

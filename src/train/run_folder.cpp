@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "io/view_dataset.h"
+#include "io/views/dataset_folder.h"
 #include "train/config/config.h"
 
 namespace svnet {

@@ -5,8 +5,8 @@
 #include "base/random.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "io/atomic_file.h"
-#include "io/checkpoint.h"
+#include "io/files/atomic_file.h"
+#include "io/models/checkpoint.h"
 #include "models/orientation.h"
 #include "models/trained_graph.h"
 #include "predict/score_head.h"
@@ -94,12 +94,12 @@ std::string Run::model_fingerprint() {
 }
 
 Model Run::model(Resume resume) {
-  if (team_.first()) write_atomically(folder_ / "config.yaml", to_yaml(config_));
+  if (communicator_.is_root()) write_atomically(folder_ / "config.yaml", to_yaml(config_));
   const Scores& scores = this->scores();
   const std::string wanted = model_fingerprint();
   const auto path = folder_ / "model.safetensors";
   if (resume == Resume::automatic)
-    if (auto model = reused_file(path, wanted, read_model, team_, messages_)) {
+    if (auto model = reused_file(path, wanted, read_model, communicator_, messages_)) {
       say("SV-net: reused model.safetensors");
       return std::move(*model);
     }
@@ -137,7 +137,7 @@ Model Run::model(Resume resume) {
   say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
              validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
-  if (team_.first()) write_model(path, model);
+  if (communicator_.is_root()) write_model(path, model);
   return model;
 }
 
@@ -166,7 +166,7 @@ std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeI
   std::vector<Index> top_views;
   for (const auto& pose : dataset_.poses)
     if (!held_out_[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
-  inputs->keep(top_views, messages_, team_);
+  inputs->keep(top_views, messages_, communicator_);
   return inputs;
 }
 
@@ -174,17 +174,17 @@ void Run::train_into(Model& model, const Graph& graph, const TrainingSet& traini
                      Resume resume) {
   TrainerOptions options = trainer_options(config_, model.input_fingerprint);
   options.schedule = schedule(config_.training, batch_count(options.batch_size, training.size()));
-  Trainer trainer(graph, training, validation, options, team_);
+  Trainer trainer(graph, training, validation, options, communicator_);
   const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
   std::optional<Checkpoint> from;
-  if (resume == Resume::automatic && team_.first()) try {
+  if (resume == Resume::automatic && communicator_.is_root()) try {
       if (read_checkpoint_fingerprint(last) == model.input_fingerprint &&
           read_checkpoint_fingerprint(best) == model.input_fingerprint)
         from = read_checkpoint(last, graph, trainer.optimizer_shapes());
     } catch (const Error& error) {
       say(joined("training starts anew: ", error.what()));
     }
-  if (team_.from_first(from.has_value()) != 0) {
+  if (communicator_.broadcast(from.has_value()) != 0) {
     if (!from) from = read_checkpoint(last, graph, trainer.optimizer_shapes());
     say(joined("training: goes on after epoch ", from->epoch));
   }
@@ -192,13 +192,13 @@ void Run::train_into(Model& model, const Graph& graph, const TrainingSet& traini
       from ? std::move(*from)
            : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
-        if (!team_.first()) return;
+        if (!communicator_.is_root()) return;
         if (is_best) write_checkpoint(best, state);
         write_checkpoint(last, state);
         write_atomically(folder_ / "metrics.csv", state.metrics);
       },
       messages_);
-  team_.from_first(0);  // has written what all read
+  communicator_.broadcast(0);  // has written what all read
   take_trained(read_checkpoint_parameters(best, graph), model.backbone_parameters, model.head_parameters);
 }
 

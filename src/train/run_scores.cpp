@@ -9,12 +9,12 @@ const Scores& Run::scores() {
   const Features& features = this->features(config_.scores.backbone, config_.scores.layer);
   const std::string wanted = scores_fingerprint(features.input_fingerprint, config_);
   const auto path = folder_ / "scores.h5";
-  if (auto scores = reused_file(path, wanted, read_scores, team_, messages_)) {
+  if (auto scores = reused_file(path, wanted, read_scores, communicator_, messages_)) {
     say("scores: reused scores.h5");
     return scores_.emplace(std::move(*scores));
   }
   return scores_.emplace(make_scores(path, dataset_, features, held_out_, config_, messages_,
-                                     {.resume = ScoresRun::Resume::same, .team = team_}));
+                                     {.resume = ScoresRun::Resume::same, .communicator = communicator_}));
 }
 
 }  // namespace svnet

@@ -80,21 +80,21 @@ void resume(const std::filesystem::path& path, const std::string& fingerprint, b
   sums.problems = static_cast<std::uint64_t>(snapshot.problems);
 }
 
-/// What the team goes on from: what its first process finds in a snapshot, or nothing.
+/// What the communicator goes on from: what its first process finds in a snapshot, or nothing.
 ScoreSums first_sums(const std::filesystem::path& path, const std::string& fingerprint, Index views,
                      const Messages& messages, const ScoresRun& run) {
   using Resume = ScoresRun::Resume;
   ScoreSums sums(views);
   if (run.resume == Resume::never) return sums;
-  if (run.team.first() && std::filesystem::exists(path)) try {
+  if (run.communicator.is_root() && std::filesystem::exists(path)) try {
       resume(path, fingerprint, run.resume == Resume::same, sums);
     } catch (const Error& error) {
       if (run.resume == Resume::any) throw;
       if (messages.line) messages.line(joined("made again: ", error.what()));
     }
-  sums.problems = run.team.from_first(sums.problems);
+  sums.problems = run.communicator.broadcast(sums.problems);
   if (sums.problems == 0) return sums;
-  run.team.sum(sums.numbers());
+  run.communicator.all_reduce(sums.numbers());
   if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
   return sums;
 }
@@ -140,16 +140,17 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
                    const ScoresRun& run) {
   Config::Scores drawn = config.scores;
   drawn.min_categories = fewest_categories(excluded, drawn);
-  const DistanceMatrix distances =
-      squared_distances(features.values.data(), features.count, features.dimension, Parallel::shared(), run.team);
+  const DistanceMatrix distances = squared_distances(features.values.data(), features.count, features.dimension,
+                                                     Parallel::shared(), run.communicator);
   const ClusteringProblems problems = clustering_problems(dataset, excluded, drawn);
   const ScoreOptions options = score_options(config, features.dimension);
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
 
   const std::filesystem::path snapshot = snapshot_path(path);
   ScoreSums sums = first_sums(snapshot, fingerprint, problems.views(), messages, run);
-  Snapshots snapshots(run.team.first() ? snapshot : std::filesystem::path(), run.snapshot_seconds, fingerprint);
-  continue_scores(distances, problems, options, Parallel::shared(), run.team, sums,
+  Snapshots snapshots(run.communicator.is_root() ? snapshot : std::filesystem::path(), run.snapshot_seconds,
+                      fingerprint);
+  continue_scores(distances, problems, options, Parallel::shared(), run.communicator, sums,
                   {&messages, [&](const ScoreSums& so_far) { snapshots.offer(so_far); }});
   SemanticScores made = scores_from(sums);
 
@@ -167,7 +168,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
                 rank_stability(sums, problems.pose_of_view()),
                 features.paths};
   scores.scaled = scaled_per_pose(scores.individual, problems.pose_of_view());
-  if (run.team.first()) {
+  if (run.communicator.is_root()) {
     write_scores(path, scores);
     std::error_code no_snapshot;
     std::filesystem::remove(snapshot, no_snapshot);

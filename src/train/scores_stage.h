@@ -3,11 +3,11 @@
 #include <filesystem>
 #include <limits>
 
+#include "base/communicator.h"
 #include "base/progress.h"
-#include "base/team.h"
-#include "io/features_file.h"
-#include "io/scores_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
 #include "semantics/clustering_problems.h"
 #include "semantics/semantic_scores.h"
 #include "train/config/config.h"
@@ -31,7 +31,8 @@ struct ScoresRun {
   /// other scores is an Error.
   enum class Resume { never, same, any } resume = Resume::never;
   double snapshot_seconds = 10;  ///< from one snapshot to the next
-  Team& team = Alone::shared();  ///< that shares the work; its first process reads and writes files
+  Communicator& communicator =
+      SingleProcess::shared();  ///< that shares the work; its first process reads and writes files
 };
 
 /// Makes the scores of every view as `config.scores` and `config.seed` say, views of excluded categories have none, and

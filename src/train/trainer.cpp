@@ -50,8 +50,8 @@ std::string metrics_line(Index epoch, Index step, double rate, double loss, std:
 }  // namespace
 
 Trainer::Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
-                 const TrainerOptions& options, Team& team)
-    : graph_(graph), training_(training), validation_(validation), options_(options), team_(team) {
+                 const TrainerOptions& options, Communicator& communicator)
+    : graph_(graph), training_(training), validation_(validation), options_(options), communicator_(communicator) {
   check(training_.size() >= 2, "[training] needs at least 2 views with a score, there are ", training_.size());
 }
 
@@ -77,7 +77,7 @@ Index Trainer::steps_per_epoch() const { return batch_count(options_.batch_size,
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
   const TrainingContext context{
-      .seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps), .team = &team_};
+      .seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps), .communicator = &communicator_};
   const Tensor score = svnet::train(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()}, context)[0];
   const Tensor loss = ops::mean_squared_error(score, batch.targets);
   check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
@@ -138,9 +138,9 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
     std::optional<double> validation;
     if (validation_ != nullptr) validation = mean_loss(*validation_, state.parameters);
     ++state.epoch;
-    if (team_.size() > 1) {
+    if (communicator_.size() > 1) {
       const std::uint64_t own = sum_of_bits(state.parameters);
-      check(team_.from_first(own) == own, "[training] process ", team_.rank(),
+      check(communicator_.broadcast(own) == own, "[training] process ", communicator_.rank(),
             " has other parameters than process 0 after epoch ", state.epoch,
             "; processes must run on processors of one kind, or with SVNET_MAX_ISA set to what all of them have");
     }

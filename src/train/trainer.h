@@ -2,9 +2,9 @@
 #include <functional>
 #include <string>
 
+#include "base/communicator.h"
 #include "base/progress.h"
-#include "base/team.h"
-#include "io/checkpoint.h"
+#include "io/models/checkpoint.h"
 #include "nn/optim/schedule.h"
 #include "train/training_set.h"
 
@@ -20,14 +20,14 @@ struct TrainerOptions {
   std::string input_fingerprint;  // copied into checkpoints
 };
 
-/// Trains a graph with inputs (top view, angles) and one score by mean squared error. The processes of a team all do
-/// the same steps, each with all parameters, and share the products of dense layers: every sum over a batch is made in
-/// the order of its examples, so the bits do not depend on how many they are.
+/// Trains a graph with inputs (top view, angles) and one score by mean squared error. The processes of a communicator
+/// all do the same steps, each with all parameters, and share the products of dense layers: every sum over a batch is
+/// made in the order of its examples, so the bits do not depend on how many they are.
 class Trainer {
  public:
   /// `validation` may be empty (nullptr). Keeps references.
   Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation, const TrainerOptions& options,
-          Team& team = Alone::shared());
+          Communicator& communicator = SingleProcess::shared());
 
   /// What a training starts from.
   Checkpoint beginning(Parameters parameters) const;
@@ -35,7 +35,7 @@ class Trainer {
   /// Goes on from a checkpoint with the same bits as if it had never stopped, changing its parameters in place. After
   /// each epoch calls `after_epoch` with the state and whether the epoch is the best so far: by validation loss where
   /// there is a validation set, else by training loss. Throws Error where the loss or a gradient is not finite, or
-  /// where the processes of the team do not compute the same.
+  /// where the processes of the communicator do not compute the same.
   void train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
 
@@ -53,7 +53,7 @@ class Trainer {
   const TrainingSet& training_;
   const TrainingSet* validation_;
   TrainerOptions options_;
-  Team& team_;
+  Communicator& communicator_;
 };
 
 }  // namespace svnet

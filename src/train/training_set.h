@@ -1,8 +1,8 @@
 #pragma once
 #include <vector>
 
-#include "io/scores_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/views/scores_file.h"
 #include "models/sv_net.h"
 #include "nn/tensor.h"
 #include "train/view_inputs.h"

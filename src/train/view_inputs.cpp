@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "models/orientation.h"
 #include "train/training_set.h"
 
@@ -82,7 +82,7 @@ Tensor PictureInputs::batch(std::span<const Index> inputs) const {
   return batch;
 }
 
-void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages, Team& team) {
+void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages, Communicator& communicator) {
   std::vector<Index> inputs;
   for (const Index view : views)
     for (int orientation = 0; orientation < options_.orientations; ++orientation)
@@ -90,7 +90,7 @@ void PictureInputs::keep(const std::vector<Index>& views, const Messages& messag
   const auto count = static_cast<Index>(inputs.size());
   const Index size = element_count(shape());
   Tensor kept = Tensor::zeros(batched(count, shape()));
-  const Share share = share_of(team, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
+  const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
   const Index first = static_cast<Index>(share.first) * kBatch;
   const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
   Progress progress(messages, "frozen layers", std::max<Index>(last - first, 0));
@@ -101,7 +101,7 @@ void PictureInputs::keep(const std::vector<Index>& views, const Messages& messag
     std::copy_n(part.data<float>(), part.size(), kept.data<float>() + begin * size);
     progress.update(end - first);
   }
-  team.gather({kept.data<float>(), static_cast<std::size_t>(kept.size())});
+  communicator.all_reduce({kept.data<float>(), static_cast<std::size_t>(kept.size())});
   kept_ = kept;
   std::fill(kept_row_.begin(), kept_row_.end(), -1);
   for (std::size_t i = 0; i < inputs.size(); ++i)

@@ -2,10 +2,10 @@
 #include <optional>
 #include <vector>
 
+#include "base/communicator.h"
 #include "base/progress.h"
-#include "base/team.h"
-#include "io/features_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/views/features_file.h"
 #include "models/preprocessing.h"
 #include "nn/runtime/inference.h"
 
@@ -51,8 +51,9 @@ class PictureInputs : public ViewInputs {
   Shape shape() const override;
   Tensor batch(std::span<const Index> inputs) const override;
 
-  /// Computes these views in all orientations once and for all, and keeps them in memory; a team shares the work.
-  void keep(const std::vector<Index>& views, const Messages& messages, Team& team);
+  /// Computes these views in all orientations once and for all, and keeps them in memory; a communicator shares the
+  /// work.
+  void keep(const std::vector<Index>& views, const Messages& messages, Communicator& communicator);
 
  private:
   Tensor made(std::span<const Index> inputs) const;

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 
 using namespace svnet;
 
@@ -72,8 +72,8 @@ TEST_CASE("the pool can be resized between calls") {
   CHECK_THROWS_WITH(pool.resize(0), "[threads] number of threads must be between 1 and 1024");
 }
 
-TEST_CASE("a share runs whole chunks, each in one process of the team") {
-  class Member : public Alone {
+TEST_CASE("a share runs whole chunks, each in one process of the communicator") {
+  class Member : public SingleProcess {
    public:
     Member(int rank, int size) : rank_(rank), size_(size) {}
     int rank() const override { return rank_; }

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/backbone_file.h"
-#include "io/image_file.h"
-#include "io/view_dataset.h"
+#include "io/images/image_file.h"
+#include "io/models/backbone_file.h"
+#include "io/views/dataset_folder.h"
 #include "shared_folder.h"
 #include "small_model.h"
 #include "temporary_folder.h"

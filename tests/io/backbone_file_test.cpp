@@ -1,12 +1,12 @@
-#include "io/backbone_file.h"
+#include "io/models/backbone_file.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 
 #include "base/parallel.h"
-#include "io/file_hash.h"
-#include "io/safetensors.h"
+#include "io/files/file_hash.h"
+#include "io/tensors/safetensors.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

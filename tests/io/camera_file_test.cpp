@@ -1,4 +1,4 @@
-#include "io/camera_file.h"
+#include "io/views/camera_file.h"
 
 #include <catch2/catch.hpp>
 

@@ -1,10 +1,10 @@
-#include "io/depth_file.h"
+#include "io/images/depth_file.h"
 
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <limits>
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

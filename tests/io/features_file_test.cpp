@@ -1,4 +1,4 @@
-#include "io/features_file.h"
+#include "io/views/features_file.h"
 
 #include <catch2/catch.hpp>
 #include <limits>

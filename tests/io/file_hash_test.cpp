@@ -1,4 +1,4 @@
-#include "io/file_hash.h"
+#include "io/files/file_hash.h"
 
 #include <catch2/catch.hpp>
 

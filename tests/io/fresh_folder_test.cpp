@@ -1,4 +1,4 @@
-#include "io/fresh_folder.h"
+#include "io/files/fresh_folder.h"
 
 #include <catch2/catch.hpp>
 #include <optional>

@@ -4,10 +4,10 @@
 
 #include "base/error.h"
 #include "base/random.h"
-#include "io/features_file.h"
 #include "io/hdf5/hdf5_file.h"
-#include "io/keras_weights.h"
-#include "io/scores_file.h"
+#include "io/keras/keras_weights.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

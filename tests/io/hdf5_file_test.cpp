@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
-#include "io/file_hash.h"
+#include "io/files/file_hash.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

@@ -1,4 +1,4 @@
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

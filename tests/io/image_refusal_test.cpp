@@ -6,7 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

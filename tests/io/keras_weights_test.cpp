@@ -1,4 +1,4 @@
-#include "io/keras_weights.h"
+#include "io/keras/keras_weights.h"
 
 #include <catch2/catch.hpp>
 #include <cstdlib>

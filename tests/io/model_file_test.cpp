@@ -1,14 +1,14 @@
-#include "io/model_file.h"
+#include "io/models/model_file.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "io/checkpoint.h"
-#include "io/graph_json.h"
-#include "io/safetensors.h"
-#include "io/tensor_file.h"
+#include "io/models/checkpoint.h"
+#include "io/models/graph_json.h"
+#include "io/tensors/safetensors.h"
+#include "io/tensors/tensor_file.h"
 #include "models/backbone.h"
 #include "nn/graph/run.h"
 #include "temporary_folder.h"

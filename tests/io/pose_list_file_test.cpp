@@ -1,4 +1,4 @@
-#include "io/pose_list_file.h"
+#include "io/views/pose_list_file.h"
 
 #include <catch2/catch.hpp>
 

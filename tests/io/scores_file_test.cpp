@@ -1,4 +1,4 @@
-#include "io/scores_file.h"
+#include "io/views/scores_file.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

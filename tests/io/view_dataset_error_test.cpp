@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "io/view_dataset.h"
+#include "io/views/dataset_folder.h"
 #include "temporary_folder.h"
 
 using namespace svnet;

@@ -1,8 +1,7 @@
-#include "io/view_dataset.h"
-
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "io/views/dataset_folder.h"
 #include "shared_folder.h"
 #include "temporary_folder.h"
 

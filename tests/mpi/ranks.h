@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "mpi/mpi_team.h"
+#include "mpi/mpi_communicator.h"
 #include "temporary_folder.h"
 
 namespace svnet {

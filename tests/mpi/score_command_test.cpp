@@ -7,7 +7,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "io/scores_file.h"
+#include "io/views/scores_file.h"
 #include "mpi/ranks.h"
 #include "shell.h"
 #include "views_on_disk.h"

@@ -2,8 +2,9 @@
 #include <string>
 
 #include "base/random.h"
-#include "io/features_file.h"
-#include "io/view_dataset.h"
+#include "data/view_dataset.h"
+#include "io/views/dataset_folder.h"
+#include "io/views/features_file.h"
 #include "temporary_folder.h"
 
 namespace svnet {

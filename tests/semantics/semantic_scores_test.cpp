@@ -157,9 +157,9 @@ TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
   const auto problems = f.problems();
   Parallel pool(2);
   ScoreSums whole(problems.views());
-  Alone alone;
+  SingleProcess single_process;
   std::vector<ScoreSums> snapshots;
-  continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, alone, whole,
+  continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, single_process, whole,
                   {.after_step = [&](const ScoreSums& sums) { snapshots.push_back(sums); }});
   REQUIRE(snapshots.size() >= 3);
   CHECK(snapshots[0].problems < 16384);
@@ -167,12 +167,12 @@ TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
   ScoreSums resumed;
   for (const std::size_t stopped : {std::size_t{0}, snapshots.size() / 2}) {
     resumed = snapshots[stopped];
-    continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, alone, resumed);
+    continue_scores(f.distances, problems, {.problems = 40000, .seed = 76}, pool, single_process, resumed);
     CHECK(resumed == whole);
   }
 
   // Between borders the rules are not looked at.
-  continue_scores(f.distances, problems, {.min_samples = 1, .seed = 76}, pool, alone, resumed);
+  continue_scores(f.distances, problems, {.min_samples = 1, .seed = 76}, pool, single_process, resumed);
   CHECK(resumed.problems == 49152);
 
   ProblemSolver solver(f.distances, problems, ProblemScoring{.seed = 76}, pool);
@@ -250,8 +250,8 @@ TEST_CASE("scores refuse options that cannot be followed") {
   CHECK_THROWS_WITH(semantic_scores(other, problems, {.problems = 1}, Parallel::shared()),
                     "[scores] distances of 3 views, but problems of 17");
   ScoreSums wrong(2);
-  Alone alone;
-  CHECK_THROWS_WITH(continue_scores(f.distances, problems, {.problems = 1}, Parallel::shared(), alone, wrong),
+  SingleProcess single_process;
+  CHECK_THROWS_WITH(continue_scores(f.distances, problems, {.problems = 1}, Parallel::shared(), single_process, wrong),
                     "[scores] the sums so far are of 2 views, the problems of 17");
   CHECK_THROWS_WITH(
       scores({.problems = 1, .clustering = {.method = ClusteringOptions::Method::kmeans, .dimension = 0}}),

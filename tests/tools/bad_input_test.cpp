@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "io/hdf5/hdf5_file.h"
-#include "io/safetensors.h"
+#include "io/tensors/safetensors.h"
 #include "workplace.h"
 
 using namespace svnet;

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "base/cpu.h"
-#include "io/features_file.h"
-#include "io/scores_file.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
 #include "nn/kernels/packed/bf16_tile.h"
 #include "workplace.h"
 

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "predict/half_sphere_plot.h"
 #include "predict/predictor.h"
 #include "shell.h"

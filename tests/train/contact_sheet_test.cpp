@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "io/views/dataset_folder.h"
 #include "small_dataset.h"
 
 using namespace svnet;

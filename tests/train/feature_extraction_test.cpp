@@ -4,8 +4,9 @@
 #include <limits>
 
 #include "base/parallel.h"
-#include "io/backbone_file.h"
 #include "io/hdf5/hdf5_file.h"
+#include "io/models/backbone_file.h"
+#include "io/views/dataset_folder.h"
 #include "nn/graph/keras_order.h"
 #include "small_dataset.h"
 
@@ -14,8 +15,8 @@ using namespace svnet;
 namespace {
 
 Features extracted(const Backbone& backbone, const ViewDataset& dataset) {
-  Alone alone;
-  return extract_features(backbone, dataset, {}, {}, alone);
+  SingleProcess single_process;
+  return extract_features(backbone, dataset, {}, {}, single_process);
 }
 
 /// The graph's parameters as a legacy Keras file; those of `changed` are `units` NaN.

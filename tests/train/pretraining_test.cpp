@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "io/views/dataset_folder.h"
 #include "small_dataset.h"
 
 using namespace svnet;

@@ -10,7 +10,7 @@
 #include <iostream>
 #include <optional>
 
-#include "io/safetensors.h"
+#include "io/tensors/safetensors.h"
 #include "models/sv_net.h"
 #include "models/trained_graph.h"
 #include "nn/autograd.h"

@@ -5,8 +5,9 @@
 #include <cmath>
 
 #include "base/parallel.h"
-#include "io/backbone_file.h"
-#include "io/file_hash.h"
+#include "io/files/file_hash.h"
+#include "io/models/backbone_file.h"
+#include "io/views/dataset_folder.h"
 #include "models/backbone.h"
 #include "predict/predictor.h"
 #include "small_dataset.h"
@@ -248,7 +249,7 @@ TEST_CASE("inputs that are kept in every orientation are those made when asked f
   PictureInputs inputs(dataset, backbone.preprocessing(), frozen, {.orientations = 8, .flat = true});
   const std::vector<Index> wanted{9, 8, 15};  // of view 1
   const Tensor made = inputs.batch(wanted);
-  inputs.keep({1}, {}, Alone::shared());
+  inputs.keep({1}, {}, SingleProcess::shared());
   const Tensor kept = inputs.batch(wanted);
   CHECK(made.shape() == kept.shape());
   CHECK(std::ranges::equal(made.values<float>(), kept.values<float>()));

@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "io/image_file.h"
+#include "io/images/image_file.h"
 #include "temporary_folder.h"
 
 namespace svnet {

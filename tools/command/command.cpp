@@ -52,16 +52,17 @@ CLI::Option* Command::add_precision() {
       ->type_name("f32|bf16");
 }
 
-int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team) {
+int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Communicator& communicator) {
   cap_openblas_from_environment(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, not the end of the process
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& answer) {
-    return parsed(answer, team);
+    return parsed(answer, communicator);
   }
-  Console console(team.first() ? (quiet_ ? Console::Voice::quiet : Console::Voice::full) : Console::Voice::mute,
-                  stderr_is_terminal());
+  Console console(
+      communicator.is_root() ? (quiet_ ? Console::Voice::quiet : Console::Voice::full) : Console::Voice::mute,
+      stderr_is_terminal());
   try {
     remember_interrupts();
     cap_from_environment();
@@ -72,37 +73,37 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     flush_results();
     return 0;
   } catch (const Interrupted&) {
-    if (team.size() > 1) return 130;  // by the launcher, which says why
-    return report(console, "interrupted", 130, team);
+    if (communicator.size() > 1) return 130;  // by the launcher, which says why
+    return report(console, "interrupted", 130, communicator);
   } catch (const UsageError& e) {
-    return report(console, usage_text(e.what()), 2, team);
+    return report(console, usage_text(e.what()), 2, communicator);
   } catch (const NoMemory& e) {
-    return report(console, e.what(), 1, team);
+    return report(console, e.what(), 1, communicator);
   } catch (const std::bad_alloc&) {
-    return report(console, "out of memory", 1, team);
+    return report(console, "out of memory", 1, communicator);
   } catch (const std::exception& e) {
-    return report(console, e.what(), 1, team);
+    return report(console, e.what(), 1, communicator);
   }
 }
 
-int Command::parsed(const CLI::ParseError& answer, const Team& team) {
+int Command::parsed(const CLI::ParseError& answer, const Communicator& communicator) {
   Console console(Console::Voice::full, stderr_is_terminal());
-  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, team);
-  if (!team.first()) return 0;
+  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, communicator);
+  if (!communicator.is_root()) return 0;
   app_.exit(answer, std::cout, std::cerr);
   try {
     flush_results();
     return 0;
   } catch (const Error& e) {
-    return report(console, e.what(), 1, team);
+    return report(console, e.what(), 1, communicator);
   }
 }
 
 std::string Command::usage_text(const std::string& message) const { return message + "; see " + name_ + " --help"; }
 
-int Command::report(Console& console, const std::string& message, int status, const Team& team) const {
+int Command::report(Console& console, const std::string& message, int status, const Communicator& communicator) const {
   const timespec second{1, 0};
-  if (!team.first() && ::nanosleep(&second, nullptr) != 0) return status;  // ended by a signal
+  if (!communicator.is_root() && ::nanosleep(&second, nullptr) != 0) return status;  // ended by a signal
   console.error(name_ + ": " + message);
   return status;
 }

@@ -3,8 +3,8 @@
 #include <functional>
 #include <string>
 
+#include "base/communicator.h"
 #include "base/error.h"
-#include "base/team.h"
 #include "command/console.h"
 
 namespace svnet {
@@ -42,14 +42,15 @@ class Command {
 
   /// Parses, runs `body` and returns the exit status: 0 done, 1 failed (one line on stderr: what, where, what to do),
   /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA, --threads and --precision are in force when the body runs.
-  /// Of a team only the first process speaks. Others wait a second with an error: where the first one failed as well,
-  /// it ends them before.
-  int run(int argc, char** argv, const std::function<void(Console&)>& body, const Team& team = Alone::shared());
+  /// Of a communicator only the first process speaks. Others wait a second with an error: where the first one failed as
+  /// well, it ends them before.
+  int run(int argc, char** argv, const std::function<void(Console&)>& body,
+          const Communicator& communicator = SingleProcess::shared());
 
  private:
-  int parsed(const CLI::ParseError& answer, const Team& team);
+  int parsed(const CLI::ParseError& answer, const Communicator& communicator);
   std::string usage_text(const std::string& message) const;
-  int report(Console& console, const std::string& message, int status, const Team& team) const;
+  int report(Console& console, const std::string& message, int status, const Communicator& communicator) const;
 
   std::string name_;
   CLI::App app_;

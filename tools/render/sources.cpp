@@ -7,10 +7,10 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/mesh_file.h"
-#include "io/view_dataset.h"
-#include "view/render/catalogue.h"
-#include "view/render/collection.h"
+#include "io/views/dataset_folder.h"
+#include "simulation/catalogue.h"
+#include "simulation/collection.h"
+#include "simulation/meshes/mesh_file.h"
 
 namespace svnet {
 namespace {

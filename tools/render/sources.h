@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/index.h"
-#include "view/render/mesh.h"
+#include "simulation/mesh.h"
 
 namespace svnet {
 

@@ -48,8 +48,9 @@ class Runner {
                                                     conv_options(l)));
             },
             [&](const DenseLayer& l) {
-              return finished(node, l,
-                              ops::dense(x[0], get(node, "kernel"), context_ == nullptr ? nullptr : context_->team));
+              return finished(
+                  node, l,
+                  ops::dense(x[0], get(node, "kernel"), context_ == nullptr ? nullptr : context_->communicator));
             },
             [&](const BatchNormLayer& l) { return batch_norm(node, l, x[0]); },
             [&](const ActivationLayer& l) { return activated(x[0], l.activation); },

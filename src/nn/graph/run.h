@@ -6,14 +6,14 @@
 
 namespace svnet {
 
-class Team;
+class Communicator;
 
 /// What a training step needs to know: dropout masks depend on the seed, the step and the layer, nothing else.
 struct TrainingContext {
   std::uint64_t seed = 0;
   std::uint64_t step = 0;
   /// Whose processes run the same step and share the products of its dense layers, forward and backward.
-  Team* team = nullptr;
+  Communicator* communicator = nullptr;
 };
 
 /// Runs the layers that `outputs` depend on and returns their values, in that order. `inputs` are batches for

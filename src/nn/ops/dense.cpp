@@ -1,6 +1,6 @@
 #include "nn/ops/dense.h"
 
-#include "base/team.h"
+#include "base/communicator.h"
 #include "nn/autograd.h"
 #include "nn/kernels/batch_norm/batch_norm.h"
 #include "nn/kernels/gemm.h"
@@ -13,29 +13,29 @@ constexpr Index kFewRows = 64;
 
 /// multiply(parallel, y) fills y (rows, columns), in chunks that write apart.
 template <class Multiply>
-Tensor made_together(Team* team, Index rows, Index columns, DType dtype, const Multiply& multiply) {
-  if (team == nullptr || team->size() == 1) {
+Tensor made_together(Communicator* communicator, Index rows, Index columns, DType dtype, const Multiply& multiply) {
+  if (communicator == nullptr || communicator->size() == 1) {
     Tensor y = Tensor::empty({rows, columns}, dtype);
     multiply(pool(), y);
     return y;
   }
   Tensor y = Tensor::zeros({rows, columns}, dtype);
-  Parallel share = pool().share(*team);
+  Parallel share = pool().share(*communicator);
   multiply(share, y);
-  team->gather({y.data<float>(), static_cast<std::size_t>(y.size())});
+  communicator->all_reduce({y.data<float>(), static_cast<std::size_t>(y.size())});
   return y;
 }
 
 }  // namespace
 
-Tensor dense(const Tensor& x, const Tensor& w, Team* team) {
+Tensor dense(const Tensor& x, const Tensor& w, Communicator* communicator) {
   check_operands("dense", {x, w});
   check(x.rank() == 2 && w.rank() == 2 && w.size() > 0, "[dense] expects rows MxC and a weight CxK, got ",
         shapes(x, w));
   check(x.dim(1) == w.dim(0), "[dense] input has ", x.dim(1), " features, weight expects ", w.dim(0), " (",
         shapes(x, w), ")");
   const Index m = x.dim(0), c = x.dim(1), k = w.dim(1);
-  const Tensor y = made_together(team, m, k, x.dtype(), [&](Parallel& parallel, Tensor& to) {
+  const Tensor y = made_together(communicator, m, k, x.dtype(), [&](Parallel& parallel, Tensor& to) {
     with_dtype(x.dtype(), [&]<class T>() {
       // Few rows use each weight seldom: what counts is how fast the weights come from memory.
       if constexpr (std::is_same_v<T, float>)
@@ -45,7 +45,7 @@ Tensor dense(const Tensor& x, const Tensor& w, Team* team) {
   });
   return autograd::record(y, {x, w}, [=, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
     if (g.wants(0))
-      g.add(0, made_together(team, m, c, x.dtype(), [&](Parallel& parallel, Tensor& dx) {
+      g.add(0, made_together(communicator, m, c, x.dtype(), [&](Parallel& parallel, Tensor& dx) {
               with_dtype(dy.dtype(), [&]<class T>() {
                 kernels::gemm(parallel, {.m = m, .n = c, .k = k, .transpose_b = true}, dy.data<T>(), w.data<T>(),
                               dx.data<T>());

@@ -1,0 +1,25 @@
+#pragma once
+#include <string>
+
+#include "models/preprocessing.h"
+#include "models/sv_net.h"
+#include "nn/graph/parameters.h"
+
+namespace svnet {
+
+/// SV-net with the backbone that feeds it: from a top image and camera poses to scores.
+struct Model {
+  std::string backbone;         // "mobilenet"
+  std::string backbone_output;  // the layer whose flattened output feeds the head
+  Preprocessing preprocessing;  // of the top image
+  Graph backbone_graph;
+  Parameters backbone_parameters;
+  AngleEncoding angles = AngleEncoding::radians;
+  // Of the top image, whose mean a score is: 1, as taken, or kOrientations, for which pictures must be square.
+  int orientations = 1;
+  Graph head;  // as sv_net() makes it
+  Parameters head_parameters;
+  std::string input_fingerprint;  // of everything that the numbers depend on
+};
+
+}  // namespace svnet

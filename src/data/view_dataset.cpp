@@ -1,0 +1,20 @@
+#include "data/view_dataset.h"
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace svnet {
+
+std::span<const View> ViewDataset::views_of(Index pose) const {
+  const Pose& range = poses[static_cast<std::size_t>(pose)];
+  return std::span(views).subspan(static_cast<std::size_t>(range.first_view),
+                                  static_cast<std::size_t>(range.view_count));
+}
+
+std::string ViewDataset::pose_path(Index pose) const {
+  const Pose& p = poses[static_cast<std::size_t>(pose)];
+  return joined(categories[static_cast<std::size_t>(p.category)], '/', objects[static_cast<std::size_t>(p.object)].name,
+                '/', p.name);
+}
+
+}  // namespace svnet

@@ -1,0 +1,179 @@
+#include "io/files/atomic_file.h"
+
+#include <atomic>
+#include <cerrno>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <system_error>
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "temporary_name.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_write(const fs::path& path, int error) {
+  fail(path.string(), ": cannot be written: ", std::generic_category().message(error));
+}
+
+/// fsync, begun again where a signal has interrupted it.
+int synced(int descriptor) {
+  int result;
+  do result = ::fsync(descriptor);
+  while (result != 0 && errno == EINTR);
+  return result;
+}
+
+class Descriptor {
+ public:
+  explicit Descriptor(int number) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
+
+/// Where a write to `path` goes: the end of a chain of symbolic links.
+fs::path followed(const fs::path& path) {
+  constexpr int kMostLinks = 40;  // as Linux allows
+  fs::path target = path;
+  std::error_code error;
+  for (int links = 0; fs::is_symlink(fs::symlink_status(target, error)); ++links) {
+    check(links < kMostLinks, path.string(), ": cannot be written: too many symbolic links");
+    const fs::path next = fs::read_symlink(target, error);
+    if (error) fail_to_write(path, error.value());
+    target = folder_of(target) / next;
+  }
+  return target;
+}
+
+/// The file that a write to `path` replaces. Devices and folders would be lost, or fail only after the work: they are
+/// refused first.
+fs::path checked_target(const fs::path& path) {
+  check(path.has_filename(), "'", path.string(), "': not the name of a file; give one that can be written");
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  check(!fs::is_directory(status), path.string(), ": cannot be written: it is a folder; give the name of a file");
+  check(!fs::exists(status) || fs::is_regular_file(status), path.string(),
+        ": cannot be written: it exists and is not a regular file; give another name");
+  const fs::path target = followed(path), folder = folder_of(target);
+  const fs::file_status folder_status = fs::status(folder, error);
+  check(folder_status.type() != fs::file_type::not_found, path.string(), ": cannot be written: the folder ",
+        folder.string(), " does not exist; create it first");
+  return target;
+}
+
+/// Whether both are one file, which need not exist yet.
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code error;
+  const bool exists = fs::exists(a, error);
+  if (exists != fs::exists(b, error)) return false;
+  return exists ? fs::equivalent(a, b, error) : fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
+}
+
+/// The process that made the temporary, 0 where the name is not one of the target's.
+pid_t maker_of(const std::string& name, const std::string& prefix) {
+  unsigned pid = 0, counter = 0;
+  int length = 0;
+  if (!name.starts_with(prefix)) return 0;
+  const char* rest = name.c_str() + prefix.size();
+  if (std::sscanf(rest, "%9u-%9u.tmp%n", &pid, &counter, &length) != 2 || length == 0 || rest[length] != '\0') return 0;
+  return static_cast<pid_t>(pid);
+}
+
+/// Removes what processes that were killed while they wrote the target have left.
+void remove_stale_temporaries(const fs::path& target) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  for (fs::directory_iterator entry(folder_of(target), error), end; !error && entry != end; entry.increment(error)) {
+    const pid_t maker = maker_of(entry->path().filename().string(), prefix);
+    if (maker > 0 && ::kill(maker, 0) != 0 && errno == ESRCH) ::unlink(entry->path().c_str());
+  }
+}
+
+/// A file of ours beside the target that is removed unless it was renamed away.
+class Temporary {
+ public:
+  explicit Temporary(const fs::path& target) {
+    static std::atomic<unsigned> counter{0};
+    remove_stale_temporaries(target);
+    for (;;) {
+      path_ = folder_of(target) / joined(temporary_prefix(target), ::getpid(), "-", counter++, ".tmp");
+      const Descriptor file(::open(path_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
+      if (file.number() >= 0) return;
+      if (errno != EEXIST) fail_to_write(target, errno);
+    }
+  }
+  ~Temporary() {
+    if (!path_.empty()) ::unlink(path_.c_str());
+  }
+  Temporary(const Temporary&) = delete;
+  Temporary& operator=(const Temporary&) = delete;
+
+  const fs::path& path() const { return path_; }
+
+  void sync_and_rename(const fs::path& target) {
+    {
+      const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
+      if (file.number() < 0 || synced(file.number()) != 0) fail_to_write(target, errno);
+    }
+    if (::rename(path_.c_str(), target.c_str()) != 0) fail_to_write(target, errno);
+    path_.clear();
+  }
+
+ private:
+  fs::path path_;
+};
+
+void write_all(const fs::path& target, const fs::path& temporary, std::string_view contents) {
+  const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CLOEXEC));
+  if (file.number() < 0) fail_to_write(target, errno);
+  while (!contents.empty()) {
+    const ssize_t written = ::write(file.number(), contents.data(), contents.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) fail_to_write(target, errno);
+    contents.remove_prefix(static_cast<std::size_t>(written));
+  }
+}
+
+}  // namespace
+
+void make_rename_last(const fs::path& target) {
+  const Descriptor folder(::open(folder_of(target).c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (folder.number() < 0) return;
+  if (synced(folder.number()) != 0 && errno == EIO) fail_to_write(target, errno);
+}
+
+void write_atomically(const fs::path& path, const std::function<void(const fs::path& temporary)>& write) {
+  const fs::path target = checked_target(path);
+  Temporary temporary(target);
+  write(temporary.path());
+  temporary.sync_and_rename(target);
+  make_rename_last(target);
+}
+
+void write_atomically(const fs::path& path, std::string_view contents) {
+  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, contents); });
+}
+
+void check_can_be_written(const fs::path& path, const std::vector<fs::path>& others) {
+  const Temporary temporary(checked_target(path));
+  for (const fs::path& other : others)
+    check(other.empty() || !same_file(path, other), path.string(),
+          ": cannot be written: the command needs this file for something else; give another name");
+}
+
+}  // namespace svnet

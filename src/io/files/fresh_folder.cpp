@@ -1,0 +1,87 @@
+#include "io/files/fresh_folder.h"
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "base/error.h"
+#include "io/files/atomic_file.h"
+#include "temporary_name.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The folder that `name` leads to, where nothing is yet, or an empty folder.
+fs::path target_of(const fs::path& name) {
+  check(!name.empty(), "'': not the name of a folder; give one that can be made");
+  std::error_code error;
+  fs::path target = fs::weakly_canonical(fs::absolute(name), error);
+  check(!error, name.string(), ": cannot be made: ", error.message());
+  if (!target.has_filename()) target = target.parent_path();  // after a '/'
+  const fs::file_status status = fs::symlink_status(target);
+  check(!fs::is_symlink(status), name.string(), ": is a link to nothing; remove it or choose another folder");
+  check(!fs::equivalent(target, ".", error), name.string(), ": is the folder that this runs in; choose another one");
+  check(!fs::exists(status) || (fs::is_directory(status) && fs::is_empty(target, error)), name.string(),
+        ": exists already, remove it or choose another folder");
+  return target;
+}
+
+/// A new, empty folder beside `target`.
+fs::path folder_beside(const fs::path& target, const fs::path& name) {
+  const std::string prefix = temporary_prefix(target);
+  std::error_code error;
+  fs::create_directories(target.parent_path(), error);
+  for (unsigned counter = 0; !error; ++counter) {
+    fs::path folder = target.parent_path() / joined(prefix, ::getpid(), "-", counter, ".tmp");
+    if (::mkdir(folder.c_str(), 0777) == 0) return folder;
+    if (errno != EEXIST) error.assign(errno, std::generic_category());
+  }
+  fail(name.string(), ": cannot be made: ", error.message());
+}
+
+/// rename() puts a folder only where nothing is, or an empty one.
+void give_name(const fs::path& folder, const fs::path& target, const fs::path& name) {
+  std::error_code error;
+  fs::rename(folder, target, error);
+  check(error != std::errc::device_or_resource_busy, name.string(), ": is a mount point; choose a folder in it");
+  check(
+      error != std::errc::directory_not_empty && error != std::errc::file_exists && error != std::errc::not_a_directory,
+      name.string(), ": has come to exist meanwhile; remove it or choose another folder");
+  check(!error, name.string(), ": cannot be made: ", error.message());
+}
+
+/// A folder to fill that give_name will take. An empty folder that is there already makes place for a new one at once:
+/// what the system refuses to replace is found out before the work.
+fs::path partial_of(const fs::path& target, const fs::path& name) {
+  fs::path folder = folder_beside(target, name);
+  if (!fs::exists(target)) return folder;
+  try {
+    give_name(folder, target, name);
+  } catch (const Error&) {
+    fs::remove(folder);
+    throw;
+  }
+  return folder_beside(target, name);
+}
+
+}  // namespace
+
+FreshFolder::FreshFolder(const fs::path& path)
+    : name_(path), target_(target_of(path)), partial_(partial_of(target_, path)) {}
+
+FreshFolder::~FreshFolder() {
+  std::error_code ignored;
+  fs::remove_all(partial_, ignored);
+}
+
+void FreshFolder::keep() {
+  give_name(partial_, target_, name_);
+  make_rename_last(target_);
+}
+
+}  // namespace svnet

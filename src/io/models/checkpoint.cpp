@@ -1,0 +1,46 @@
+#include "io/models/checkpoint.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/tensors/tensor_file.h"
+
+namespace svnet {
+
+void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
+  TensorFile file;
+  file.description() = {{"kind", "checkpoint"},
+                        {"input_fingerprint", checkpoint.input_fingerprint},
+                        {"epoch", checkpoint.epoch},
+                        {"steps", checkpoint.steps},
+                        {"best_loss", checkpoint.best_loss},
+                        {"metrics", checkpoint.metrics}};
+  file.add("", checkpoint.parameters);
+  for (std::size_t i = 0; i < checkpoint.optimizer.size(); ++i)
+    file.add("optimizer/" + std::to_string(i), checkpoint.optimizer[i]);
+  file.write(path);
+}
+
+Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph, const std::vector<Shape>& optimizer) {
+  const TensorFile file = TensorFile::read(path, "checkpoint");
+  Checkpoint checkpoint{.input_fingerprint = file.get<std::string>("input_fingerprint"),
+                        .epoch = file.get<Index>("epoch"),
+                        .steps = file.get<Index>("steps"),
+                        .best_loss = file.get<double>("best_loss"),
+                        .metrics = file.get<std::string>("metrics"),
+                        .parameters = file.parameters("", graph),
+                        .optimizer = {}};
+  for (std::size_t i = 0; i < optimizer.size(); ++i)
+    checkpoint.optimizer.push_back(file.at("optimizer/" + std::to_string(i), optimizer[i]));
+  return checkpoint;
+}
+
+Parameters read_checkpoint_parameters(const std::filesystem::path& path, const Graph& graph) {
+  return TensorFile::read(path, "checkpoint", "optimizer/").parameters("", graph);
+}
+
+std::string read_checkpoint_fingerprint(const std::filesystem::path& path) {
+  if (!std::filesystem::exists(path)) return {};
+  return TensorFile::read(path, "checkpoint", "optimizer/").get<std::string>("input_fingerprint");
+}
+
+}  // namespace svnet

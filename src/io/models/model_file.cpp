@@ -1,0 +1,100 @@
+#include "io/models/model_file.h"
+
+#include <nlohmann/json.hpp>
+
+#include "io/models/graph_json.h"
+#include "io/tensors/tensor_file.h"
+#include "models/orientation.h"
+
+namespace svnet {
+namespace {
+
+using nlohmann::json;
+
+json preprocessing_to_json(const Preprocessing& p) {
+  return {{"pixels", name_of(p.mode)},
+          {"height", p.height},
+          {"width", p.width},
+          {"interpolation", name_of(p.interpolation)},
+          {"channels", "RGB"}};
+}
+
+Preprocessing preprocessing_from_json(const json& from) {
+  const Preprocessing p{.mode = pixel_mode_named(from.at("pixels").get<std::string>()),
+                        .height = from.at("height").get<Index>(),
+                        .width = from.at("width").get<Index>(),
+                        .interpolation = interpolation_named(from.at("interpolation").get<std::string>())};
+  check(from.at("channels") == "RGB", "channels are ", from.at("channels").dump(), ", expected RGB");
+  check(p.height > 0 && p.width > 0 && p.height <= 8192 && p.width <= 8192, "input size ", p.height, "x", p.width,
+        " is out of range");
+  return p;
+}
+
+void add_parameters(TensorFile& file, const std::string& prefix, const Graph& graph, const Parameters& parameters) {
+  for (const auto& node : graph.nodes())
+    for (const auto& spec : node.parameters)
+      file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
+}
+
+void check_fits_together(const Model& model) {
+  check(model.orientations == 1 || model.orientations == kOrientations, "there are ", model.orientations,
+        " orientations, expected 1 or ", kOrientations);
+  const Preprocessing& p = model.preprocessing;
+  check(model.orientations == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
+        " cannot be turned; only square ones can");
+  const Graph &backbone = model.backbone_graph, &head = model.head;
+  const auto pictures = backbone.inputs(), inputs = head.inputs();
+  check(pictures.size() == 1 && backbone.node(pictures[0]).shape == Shape{p.height, p.width, 3},
+        "the backbone does not take pictures of ", p.height, "x", p.width, ", as preprocessing makes them");
+  const Shape& features = backbone.node(backbone.find(model.backbone_output)).shape;
+  check(inputs.size() == 2 && head.node(inputs[0]).shape == Shape{element_count(features)} &&
+            head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&
+            head.node(head.output()).shape == Shape{1},
+        "the head does not take the backbone's ", element_count(features),
+        " features and the angles, or gives more than one score");
+}
+
+}  // namespace
+
+void write_model(const std::filesystem::path& path, const Model& model) {
+  const Graph backbone = model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output));
+  TensorFile file;
+  file.description() = {
+      {"kind", "model"},
+      {"backbone", {{"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}}},
+      {"preprocessing", preprocessing_to_json(model.preprocessing)},
+      {"head", {{"graph", graph_to_json(model.head)}}},
+      {"angles", {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}},
+      {"input_fingerprint", model.input_fingerprint}};
+  if (model.orientations != 1) file.description()["head"]["orientations"] = model.orientations;
+  add_parameters(file, "backbone", backbone, model.backbone_parameters);
+  add_parameters(file, "head", model.head, model.head_parameters);
+  file.write(path);
+}
+
+Model read_model(const std::filesystem::path& path) {
+  const TensorFile file = TensorFile::read(path, "model");
+  const json backbone = file.get<json>("backbone"), head = file.get<json>("head"), angles = file.get<json>("angles"),
+             preprocessing = file.get<json>("preprocessing");
+  Model model;
+  model.input_fingerprint = file.get<std::string>("input_fingerprint");
+  try {
+    model.backbone = backbone.at("name").get<std::string>();
+    model.backbone_output = backbone.at("output").get<std::string>();
+    model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
+    model.preprocessing = preprocessing_from_json(preprocessing);
+    model.head = graph_from_json(head.at("graph"), "head");
+    model.angles = angle_encoding_named(angles.at("encoding").get<std::string>());
+    model.orientations = head.value("orientations", 1);
+    check_fits_together(model);
+  } catch (const Error& error) {
+    fail(path.string(), ": ", error.what());
+  } catch (const json::exception& error) {
+    fail(path.string(), ": ", error.what());
+  }
+  model.backbone_parameters = file.parameters("backbone", model.backbone_graph);
+  model.head_parameters = file.parameters("head", model.head);
+  return model;
+}
+
+}  // namespace svnet

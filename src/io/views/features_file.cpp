@@ -1,0 +1,93 @@
+#include "io/views/features_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/text.h"
+#include "io/files/atomic_file.h"
+#include "io/hdf5/hdf5_file.h"
+
+namespace svnet {
+namespace {
+
+/// Attributes and the members they fill.
+constexpr std::pair<const char*, std::string FeaturesOrigin::*> kAttributes[] = {
+    {"backbone", &FeaturesOrigin::backbone},
+    {"output", &FeaturesOrigin::output},
+    {"preprocessing", &FeaturesOrigin::preprocessing},
+    {"weights_sha256", &FeaturesOrigin::weights_sha256},
+    {"dataset_fingerprint", &FeaturesOrigin::dataset_fingerprint},
+    {"input_fingerprint", &FeaturesOrigin::input_fingerprint},
+};
+
+void read_origin(const Hdf5File& file, FeaturesOrigin& origin) {
+  for (const auto& [name, member] : kAttributes) origin.*member = file.text_attribute("", name);
+}
+
+std::vector<Index> checked_shape(const Hdf5File& file, const std::string& dataset, const std::vector<Index>& shape,
+                                 std::size_t rank) {
+  check(shape.size() == rank, file.name(), ": dataset '", dataset, "': has ", shape.size(), " dimensions, expected ",
+        rank);
+  return shape;
+}
+
+void check_features(const std::string& file, const Features& features) {
+  check(features.count > 0 && features.dimension > 0, file, ": dataset 'features': is empty, ", features.count, "x",
+        features.dimension);
+  check(static_cast<Index>(features.values.size()) == features.count * features.dimension, file,
+        ": dataset 'features': holds ", features.values.size(), " values for ", features.count, "x",
+        features.dimension);
+  check(static_cast<Index>(features.theta_phi_deg.size()) == features.count, file, ": dataset 'th_ph': has ",
+        features.theta_phi_deg.size(), " rows, 'features' has ", features.count);
+  check(static_cast<Index>(features.paths.size()) == features.count, file, ": dataset 'paths': has ",
+        features.paths.size(), " rows, 'features' has ", features.count);
+  const auto bad =
+      std::find_if(features.values.begin(), features.values.end(), [](float x) { return !std::isfinite(x); });
+  if (bad != features.values.end()) {
+    const Index row = (bad - features.values.begin()) / features.dimension;
+    fail(file, ": dataset 'features': row ", row, " (", printable(features.paths[static_cast<std::size_t>(row)]),
+         ") has a value that is not finite");
+  }
+  for (std::size_t row = 0; row < features.theta_phi_deg.size(); ++row)
+    check(std::isfinite(features.theta_phi_deg[row][0]) && std::isfinite(features.theta_phi_deg[row][1]), file,
+          ": dataset 'th_ph': row ", row, " (", printable(features.paths[row]), ") has an angle that is not finite");
+}
+
+}  // namespace
+
+Features read_features(const std::filesystem::path& path) {
+  const Hdf5File file = Hdf5File::open(path);
+  Features features;
+  read_origin(file, features);
+  const std::vector<Index> shape = checked_shape(file, "features", file.shape("features"), 2);
+  features.count = shape[0];
+  features.dimension = shape[1];
+  features.values = file.read<float>("features").values;
+  const Hdf5Array<double> angles = file.read<double>("th_ph");
+  check(checked_shape(file, "th_ph", angles.shape, 2)[1] == 2, file.name(), ": dataset 'th_ph': has ", angles.shape[1],
+        " columns, expected 2");
+  for (std::size_t i = 0; i < angles.values.size(); i += 2)
+    features.theta_phi_deg.push_back({angles.values[i], angles.values[i + 1]});
+  Hdf5Array<std::string> paths = file.read<std::string>("paths");
+  checked_shape(file, "paths", paths.shape, 1);
+  features.paths = std::move(paths.values);
+  check_features(file.name(), features);
+  return features;
+}
+
+void write_features(const std::filesystem::path& path, const Features& features) {
+  check_features(path.string(), features);
+  std::vector<double> angles;
+  for (const auto& [theta, phi] : features.theta_phi_deg) angles.insert(angles.end(), {theta, phi});
+  write_atomically(path, [&](const std::filesystem::path& temporary) {
+    Hdf5File file = Hdf5File::create(temporary, path.string());
+    for (const auto& [name, member] : kAttributes) file.write_text_attribute("", name, features.*member);
+    file.write<float>("features", {features.count, features.dimension}, features.values);
+    file.write<double>("th_ph", {features.count, 2}, angles);
+    file.write<std::string>("paths", {features.count}, features.paths);
+    file.close();
+  });
+}
+
+}  // namespace svnet

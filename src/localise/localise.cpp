@@ -1,0 +1,206 @@
+#include "localise/localise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <opencv2/imgproc.hpp>
+
+#include "base/error.h"
+#include "enclosing_circle.h"
+#include "foreground.h"
+
+namespace svnet {
+namespace {
+
+void check_fits(const Intrinsics& camera, const RgbdView& view, const char* which) {
+  check(view.rgb.width == camera.width && view.rgb.height == camera.height, "[localise] the ", which, " picture has ",
+        view.rgb.width, "x", view.rgb.height, " pixels, the camera ", camera.width, "x", camera.height);
+  check(view.depth.width == camera.width && view.depth.height == camera.height, "[localise] the ", which,
+        " depth picture has ", view.depth.width, "x", view.depth.height, " pixels, the camera ", camera.width, "x",
+        camera.height);
+}
+
+cv::Mat3b rgb_of(const Image& image) {
+  return cv::Mat3b(static_cast<int>(image.height), static_cast<int>(image.width),
+                   reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(image.rgb.data())));
+}
+
+/// Values that are no distance become holes.
+cv::Mat1f depth_of(const DepthImage& image) {
+  cv::Mat1f depth(static_cast<int>(image.height), static_cast<int>(image.width));
+  std::transform(image.metres.begin(), image.metres.end(), depth.begin(),
+                 [](float z) { return std::isfinite(z) && z > 0 ? z : 0.0f; });
+  return depth;
+}
+
+Image image_of(const cv::Mat& picture) {
+  cv::Mat3b rgb;
+  if (picture.channels() == 1)
+    cv::cvtColor(picture, rgb, cv::COLOR_GRAY2RGB);
+  else
+    rgb = picture;
+  Image image{rgb.rows, rgb.cols, {}};
+  for (int y = 0; y < rgb.rows; ++y) image.rgb.insert(image.rgb.end(), rgb.ptr(y), rgb.ptr(y) + 3 * rgb.cols);
+  return image;
+}
+
+/// The pixels of the object: parts less than about 16 pixels apart are one.
+cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
+  constexpr int kLeast_px = 40;
+  cv::Mat labels;
+  cv::Mat1b joined;
+  cv::dilate(foreground, joined, cv::getStructuringElement(cv::MORPH_ELLIPSE, {17, 17}));
+  const int count = cv::connectedComponents(joined, labels, 8);
+  std::vector<int> area(static_cast<std::size_t>(count), 0);
+  for (int y = 0; y < foreground.rows; ++y)
+    for (int x = 0; x < foreground.cols; ++x)
+      if (foreground(y, x) != 0) ++area[static_cast<std::size_t>(labels.at<int>(y, x))];
+  const auto largest = std::max_element(area.begin() + 1, area.end());
+  check(
+      count > 1 && *largest >= kLeast_px,
+      "[localise] nothing is found: the picture does not differ from the background; check that the object is in view");
+  const auto objects = std::count_if(area.begin() + 1, area.end(),
+                                     [&](int pixels) { return pixels >= kLeast_px && pixels >= *largest / 12; });
+  check(objects == 1 || take_largest, "[localise] there are ", objects,
+        " objects; leave one on the table, or ask for the largest");
+  return foreground & (labels == static_cast<int>(largest - area.begin()));
+}
+
+/// The depth of a pixel at the object's edge: the median of those around it that belong to the object and were
+/// measured.
+float depth_near(const cv::Mat1f& depth, const cv::Mat1b& inside, const cv::Mat1b& whole, int y, int x) {
+  std::vector<float> values;
+  for (int reach = 2; values.empty() && reach <= 8; reach += 2) {
+    const cv::Mat1b& object = reach == 2 ? inside : whole;
+    for (int ny = std::max(0, y - reach); ny <= std::min(depth.rows - 1, y + reach); ++ny)
+      for (int nx = std::max(0, x - reach); nx <= std::min(depth.cols - 1, x + reach); ++nx)
+        if (object(ny, nx) != 0 && depth(ny, nx) > 0) values.push_back(depth(ny, nx));
+  }
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double percentile(std::vector<double>& values, double share) {
+  const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), place, values.end());
+  return *place;
+}
+
+/// Heights of the object's pixels above the table, each the median of the 3x3 around it, and of the table nearby.
+struct Heights {
+  double table_m, object_m;
+};
+
+Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const cv::Mat1f& background,
+                const cv::Mat1f& current, const cv::Mat1b& object) {
+  const auto z_of = [&](int y, int x, float depth) {
+    return (camera_to_world * deprojected_m(camera, x, y, depth)).z();
+  };
+  std::vector<double> table, top;
+  for (int y = 1; y + 1 < object.rows; ++y)
+    for (int x = 1; x + 1 < object.cols; ++x) {
+      if (object(y, x) == 0) continue;
+      if (background(y, x) > 0) table.push_back(z_of(y, x, background(y, x)));
+      std::vector<double> around;
+      for (int dy = -1; dy <= 1; ++dy)
+        for (int dx = -1; dx <= 1; ++dx)
+          if (object(y + dy, x + dx) != 0 && current(y + dy, x + dx) > 0)
+            around.push_back(z_of(y + dy, x + dx, current(y + dy, x + dx)));
+      if (around.size() >= 3) top.push_back(percentile(around, 0.5));
+    }
+  check(!table.empty() && !top.empty(), "[localise] the depth pictures have no measurements where the object is");
+  const double table_m = percentile(table, 0.5);
+  // Almost the highest of all; of large objects too, whose highest part may be a hook or the end of a handle.
+  constexpr double kShare = 0.008, kMost_px = 12;
+  const double share = std::min(kShare, kMost_px / static_cast<double>(top.size()));
+  const double height_m = percentile(top, 1 - share) - table_m;
+  constexpr double kNoise_m = 0.005;
+  check(height_m > -kNoise_m, "[localise] what is new lies ", -height_m,
+        " m below the table; are the pictures of the table and of the object exchanged?");
+  return {table_m, std::max(height_m, 0.0)};
+}
+
+/// Pictures of kLocaliseSteps.
+std::vector<Image> pictures_of_steps(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
+                                     const Foreground& foreground, const cv::Mat1b& object, const cv::Mat3b& after,
+                                     const std::vector<std::vector<cv::Point>>& contours,
+                                     const cv::RotatedRect& rectangle_mm, const LocalisedObject& found) {
+  cv::Mat1b grey;
+  foreground.difference.convertTo(grey, CV_8U, 8);
+  cv::Mat3b drawn = after.clone();
+  cv::drawContours(drawn, contours, -1, {255, 0, 0}, 1);
+  const Eigen::Isometry3d world_to_camera = camera_to_world.inverse();
+  const auto pixel_of = [&](double x_m, double y_m) {
+    const Eigen::Vector2d pixel = projected_px(camera, world_to_camera * Eigen::Vector3d(x_m, y_m, found.centre_m.z()));
+    return cv::Point(static_cast<int>(std::lround(pixel.x())), static_cast<int>(std::lround(pixel.y())));
+  };
+  cv::Point2f corners[4];
+  rectangle_mm.points(corners);
+  for (int i = 0; i < 4; ++i) {
+    const auto corner = [&](int k) { return pixel_of(corners[k % 4].x / 1000.0, corners[k % 4].y / 1000.0); };
+    cv::line(drawn, corner(i), corner(i + 1), {0, 255, 0}, 1);
+  }
+  cv::circle(drawn, pixel_of(found.centre_m.x(), found.centre_m.y()), 4, {0, 255, 255}, -1);
+  cv::Mat1b raised;
+  foreground.rise_m.convertTo(raised, CV_8U, 230 / std::max(found.height_m, 0.005), 12);
+  return {image_of(grey), image_of(object), image_of(drawn), image_of(raised)};
+}
+
+}  // namespace
+
+LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
+                         const RgbdView& current, const LocaliseOptions& options) {
+  const std::string problem = intrinsics_problem(camera);
+  check(problem.empty(), "[localise] ", problem);
+  check(camera_to_world.linear()(2, 2) < 0,
+        "[localise] the camera looks upwards; give the pose of its optical frame (z forward) in a world with z up");
+  check_fits(camera, background, "background");
+  check_fits(camera, current, "current");
+  const cv::Mat3b before = rgb_of(background.rgb), after = rgb_of(current.rgb);
+  const cv::Mat1f depth_before = depth_of(background.depth), depth_after = depth_of(current.depth);
+  const Foreground foreground = find_foreground(before, depth_before, after, depth_after);
+  const cv::Mat1b object = object_mask(foreground.mask, options.take_largest);
+
+  std::vector<std::vector<cv::Point>> contours;
+  cv::findContours(object, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  std::vector<cv::Point2f> outline;  // in the world's xy plane, millimetres
+  double pixel_mm = 0;
+  cv::Mat1b inside;
+  cv::erode(object, inside, cv::Mat1b::ones(3, 3));
+  const Heights height = heights(camera, camera_to_world, depth_before, depth_after, object);
+  for (const auto& contour : contours)
+    for (const cv::Point& p : contour) {
+      check(p.x > 0 && p.y > 0 && p.x + 1 < object.cols && p.y + 1 < object.rows,
+            "[localise] the object is cut off by the border of the picture; move it or the camera");
+      const float depth = depth_near(depth_after, inside, object, p.y, p.x);
+      if (depth <= 0) continue;
+      const Eigen::Vector3d at = 1000 * (camera_to_world * deprojected_m(camera, p.x, p.y, depth));
+      outline.emplace_back(static_cast<float>(at.x()), static_cast<float>(at.y()));
+      pixel_mm += 1000 * depth / std::sqrt(camera.fx * camera.fy);
+    }
+  check(outline.size() >= 3, "[localise] the depth picture has no measurements along the object's contour");
+  pixel_mm /= static_cast<double>(outline.size());
+  const cv::RotatedRect rectangle = cv::minAreaRect(outline);
+  constexpr double kSoftness_px = 0.3;  // of a contour point, by far the most of it from the pixels' own size
+  const cv::Point2d middle = soft_enclosing_centre(outline, kSoftness_px * pixel_mm);
+
+  LocalisedObject result;
+  // Contour pixels' centres lie half a pixel inside the contour, which blur has moved outwards by a fifth.
+  const double margin_mm = 0.6 * pixel_mm;
+  const double a = (rectangle.size.width + margin_mm) / 1000, b = (rectangle.size.height + margin_mm) / 1000;
+  result.length_m = std::max(a, b);
+  result.width_m = std::min(a, b);
+  result.height_m = height.object_m;
+  result.yaw_rad = (rectangle.angle + (a >= b ? 0.0 : 90.0)) * std::numbers::pi / 180;
+  result.yaw_rad -= std::numbers::pi * std::floor(result.yaw_rad / std::numbers::pi);
+  result.centre_m = {middle.x / 1000.0, middle.y / 1000.0, height.table_m + height.object_m / 2};
+  result.diagonal_m = std::sqrt(result.length_m * result.length_m + result.width_m * result.width_m +
+                                result.height_m * result.height_m);
+  if (options.keep_steps)
+    result.steps = pictures_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
+  return result;
+}
+
+}  // namespace svnet

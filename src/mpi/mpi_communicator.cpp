@@ -1,0 +1,69 @@
+#include "mpi/mpi_communicator.h"
+
+#define OMPI_SKIP_MPICXX 1  // not the C++ interface of long ago
+#include <algorithm>
+
+#include <mpi.h>
+
+#include "base/error.h"
+#include "launcher.h"
+
+namespace svnet {
+namespace {
+
+/// Errors end all processes: MPI_ERRORS_ARE_FATAL, the default.
+class MpiCommunicator : public Communicator {
+ public:
+  MpiCommunicator() {
+    int provided = MPI_THREAD_SINGLE;
+    MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
+    check(provided >= MPI_THREAD_FUNNELED,
+          "[mpi] this MPI allows no other threads in its processes; use another build");
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
+    MPI_Comm_size(MPI_COMM_WORLD, &size_);
+  }
+  ~MpiCommunicator() override { MPI_Finalize(); }
+
+  int rank() const override { return rank_; }
+  int size() const override { return size_; }
+  void all_reduce(std::span<std::uint64_t> values) override { sum(values, MPI_UINT64_T); }
+  /// Sums the bits as integers: -0 and NaN keep theirs too.
+  void all_reduce(std::span<float> values) override {
+    static_assert(sizeof(float) == sizeof(std::uint32_t));
+    sum(values, MPI_UINT32_T);
+  }
+  std::uint64_t broadcast(std::uint64_t value) override {
+    MPI_Bcast(&value, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+    return value;
+  }
+  void barrier() override { MPI_Barrier(MPI_COMM_WORLD); }
+
+ private:
+  template <class T>
+  static void sum(std::span<T> values, MPI_Datatype type) {
+    constexpr std::size_t kMost = std::size_t{1} << 28;  // counts are ints
+    for (std::size_t first = 0; first < values.size(); first += kMost)
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, static_cast<int>(std::min(kMost, values.size() - first)), type,
+                    MPI_SUM, MPI_COMM_WORLD);
+  }
+
+  int rank_ = 0, size_ = 1;
+};
+
+}  // namespace
+
+bool built_with_mpi() { return true; }
+
+int main_with_communicator(int argc, char** argv, const char*,
+                           int (*run)(int argc, char** argv, Communicator& communicator)) {
+  if (!started_by_launcher()) {
+    SingleProcess single_process;
+    return run(argc, argv, single_process);
+  }
+  MpiCommunicator communicator;
+  const int status = run(argc, argv, communicator);
+  if (status != 0 && communicator.size() > 1) MPI_Abort(MPI_COMM_WORLD, status);
+  return status;
+}
+
+}  // namespace svnet

@@ -1,0 +1,243 @@
+#include "localise/localise.h"
+
+#include <algorithm>
+#include <array>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+
+#include "base/parallel.h"
+#include "localise/enclosing_circle.h"
+#include "simulation/catalogue.h"
+#include "simulation/collection.h"
+#include "simulation/sculptor.h"
+
+using namespace svnet;
+
+namespace {
+
+/// A block of 120 x 60 x 40 mm, its edges along the table's axes.
+Mesh block() {
+  Sculptor sculptor;
+  sculptor.use({.colour = {0.7f, 0.1f, 0.05f}});
+  sculptor.box(120, 60, 40, 0.5f);
+  return sculptor.take();
+}
+
+/// Table and light of a quiet room.
+Setting plain_setting() {
+  Setting setting;
+  setting.table.colour = setting.table.second = {0.5f, 0.5f, 0.5f};
+  setting.table.gloss = 0;
+  setting.lamps.push_back({{0.5f, 0.5f, 1.5f}, 0.2f, {0.6f, 0.6f, 0.6f}});
+  return setting;
+}
+
+/// The overview of `mesh` at (x, y) on the table, or of the table alone.
+RgbdPicture picture(const Mesh* mesh, double x_m, double y_m, float exposure, std::uint32_t number) {
+  Eigen::Isometry3d place(Eigen::Translation3d(x_m, y_m, 0.02));
+  const Scene scene(mesh, place, plain_setting());
+  return sensed(scene.shoot(overview_camera(), overview_camera_to_world(), {5, number}, 2), {5, number}, exposure);
+}
+
+LocalisedObject find(const RgbdPicture& before, const RgbdPicture& after, const LocaliseOptions& options = {}) {
+  return localise(overview_camera(), overview_camera_to_world(), {before.rgb, before.depth}, {after.rgb, after.depth},
+                  options);
+}
+
+std::string refusal(const RgbdPicture& before, const RgbdPicture& after) {
+  try {
+    find(before, after);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+}  // namespace
+
+TEST_CASE("a block is found where it is, with its size, under a light that changed a little") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
+  for (const float exposure : {0.95f, 1.0f, 1.05f}) {
+    const LocalisedObject object = find(before, picture(&mesh, 0.05, -0.03, exposure, 2), {.keep_steps = true});
+    INFO("exposure " << exposure);
+    CHECK(object.centre_m.x() == Approx(0.05).margin(0.002));
+    CHECK(object.centre_m.y() == Approx(-0.03).margin(0.002));
+    CHECK(object.centre_m.z() == Approx(0.02).margin(0.002));
+    CHECK(object.length_m == Approx(0.12).margin(0.003));
+    CHECK(object.width_m == Approx(0.06).margin(0.003));
+    CHECK(object.height_m == Approx(0.04).margin(0.003));
+    CHECK(std::abs(std::sin(object.yaw_rad)) < 0.05);
+    CHECK(object.diagonal_m == Approx(std::sqrt(0.12 * 0.12 + 0.06 * 0.06 + 0.04 * 0.04)).margin(0.004));
+    REQUIRE(object.steps.size() == 4);
+    for (const Image& step : object.steps) CHECK(step.width == 640);
+  }
+}
+
+TEST_CASE("holes in depth are tolerated") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
+  RgbdPicture after = picture(&mesh, 0, 0, 1, 2);
+  for (std::size_t i = 0; i < after.depth.metres.size(); i += 3) after.depth.metres[i] = 0;
+  for (std::size_t i = 1; i < after.depth.metres.size(); i += 7) after.depth.metres[i] = std::nanf("");
+  const LocalisedObject object = find(before, after);
+  CHECK(object.length_m == Approx(0.12).margin(0.004));
+  CHECK(object.height_m == Approx(0.04).margin(0.004));
+}
+
+TEST_CASE("a knife that stands on its edge is found to its tip, though its blade looks like a shadow from above") {
+  const Mesh mesh = catalogue_object("knife", 2, 6);
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    INFO("seed " << seed);
+    const PosedObject posed = pose_object(mesh, 1, seed, 7);
+    const Overview overview = take_overview(posed, seed, 7);
+    CHECK(find(overview.background, overview.current).length_m == Approx(0.315).margin(0.008));
+  }
+}
+
+TEST_CASE("nothing, a part of an object, and several objects are refused") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
+  CHECK_THAT(refusal(before, picture(nullptr, 0, 0, 1.03f, 3)), Catch::StartsWith("[localise] nothing is found"));
+  CHECK_THAT(refusal(before, picture(&mesh, 0.5, 0, 1, 4)),
+             Catch::StartsWith("[localise] the object is cut off by the border of the picture"));
+  // Two pictures put together, one half from each.
+  RgbdPicture two = picture(&mesh, -0.2, 0, 1, 5);
+  const RgbdPicture other = picture(&mesh, 0.2, 0, 1, 6);
+  for (Index y = 0; y < 480; ++y) {
+    // World x points to the left in this overview.
+    std::copy_n(other.rgb.rgb.begin() + 3 * 640 * y, 3 * 320, two.rgb.rgb.begin() + 3 * 640 * y);
+    std::copy_n(other.depth.metres.begin() + 640 * y, 320, two.depth.metres.begin() + 640 * y);
+  }
+  CHECK(refusal(before, two) == "[localise] there are 2 objects; leave one on the table, or ask for the largest");
+  CHECK(find(before, two, {.take_largest = true}).length_m == Approx(0.12).margin(0.006));
+}
+
+TEST_CASE("the soft enclosing circle is the smallest one where that is certain, and steadier where it is not") {
+  const std::vector<cv::Point2f> square{{0, 0}, {80, 0}, {80, 80}, {0, 80}};
+  const cv::Point2d middle = soft_enclosing_centre(square, 0.5);
+  CHECK(middle.x == Approx(40).margin(1e-3));
+  CHECK(middle.y == Approx(40).margin(1e-3));
+
+  // The tip of a handle and the corners of what it holds, one of which was seen a millimetre too far out.
+  const std::vector<cv::Point2f> fork{{0, 0}, {200, -12}, {200, 12}}, seen{{0, 0}, {201, -12}, {200, 12}};
+  const auto exact = [](const std::vector<cv::Point2f>& points) {
+    cv::Point2f centre;
+    float radius = 0;
+    cv::minEnclosingCircle(points, centre, radius);
+    return cv::Point2d(centre);
+  };
+  CHECK(cv::norm(soft_enclosing_centre(fork, 0.001) - exact(fork)) < 0.01);
+  CHECK(cv::norm(soft_enclosing_centre(fork, 0.5) - exact(fork)) < 1);
+  CHECK(cv::norm(exact(seen) - exact(fork)) > 4);
+  CHECK(cv::norm(soft_enclosing_centre(seen, 0.5) - exact(fork)) < 2.5);
+
+  const cv::Point2d alone = soft_enclosing_centre({{3, 4}}, 0.5);
+  CHECK(alone.x == Approx(3));
+  CHECK(alone.y == Approx(4));
+}
+
+TEST_CASE("exchanged pictures and a camera upside down are refused") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0.05, 0, 1, 4);
+  CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the pictures of the table and of the object "
+                                                     "exchanged?"));
+  CHECK_THROWS_WITH(
+      localise(overview_camera(), Eigen::Isometry3d::Identity(), {before.rgb, before.depth}, {after.rgb, after.depth}),
+      Catch::StartsWith("[localise] the camera looks upwards"));
+}
+
+TEST_CASE("pictures of another size than the camera's are refused") {
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
+  RgbdPicture small = before;
+  small.rgb = {2, 2, std::vector<std::uint8_t>(12)};
+  CHECK(refusal(before, small) == "[localise] the current picture has 2x2 pixels, the camera 640x480");
+  small = before;
+  small.depth = {2, 3, std::vector<float>(6)};
+  CHECK(refusal(small, before) == "[localise] the background depth picture has 3x2 pixels, the camera 640x480");
+}
+
+namespace {
+
+/// Errors in millimetres: x, y, z of GC, length, width, height. 1000 where the object is not found.
+using Errors = std::array<double, 6>;
+
+/// What objects, poses and pictures are drawn with. Localisation was developed on the first, and on (101, 103), (201,
+/// 202) to (207, 208); not on the others.
+struct Seeds {
+  std::uint32_t shapes, poses;
+};
+constexpr Seeds kDevelopment{1, 3}, kFresh[] = {{301, 302}, {303, 304}, {305, 306}};
+
+/// Localises objects 0 … count of the catalogue, category by category, each in another pose.
+std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
+  const auto& names = catalogue_names();
+  const auto categories = static_cast<Index>(names.size());
+  std::vector<Errors> errors(static_cast<std::size_t>(count));
+  Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) {
+    const Mesh mesh = catalogue_object(names[static_cast<std::size_t>(i % categories)], i / categories, seeds.shapes);
+    const auto number = static_cast<std::uint32_t>(i);
+    const PosedObject posed = pose_object(mesh, i / categories % 3, seeds.poses, number);
+    const Overview overview = take_overview(posed, seeds.poses, number);
+    std::vector<cv::Point2f> seen_from_above;
+    double height = 0;
+    for (const Vec3& point : mesh.points) {
+      const Eigen::Vector3d at = 1000 * (posed.object_to_world * point.cast<double>());
+      seen_from_above.emplace_back(static_cast<float>(at.x()), static_cast<float>(at.y()));
+      height = std::max(height, at.z());
+    }
+    const cv::Size2f size = cv::minAreaRect(seen_from_above).size;
+    cv::Point2f middle;
+    float radius = 0;
+    cv::minEnclosingCircle(seen_from_above, middle, radius);
+    Errors& error = errors[static_cast<std::size_t>(i)];
+    error.fill(1000);
+    try {
+      const LocalisedObject found = find(overview.background, overview.current);
+      error = {1000 * found.centre_m.x() - static_cast<double>(middle.x),
+               1000 * found.centre_m.y() - static_cast<double>(middle.y),
+               1000 * found.centre_m.z() - height / 2,
+               1000 * found.length_m - static_cast<double>(std::max(size.width, size.height)),
+               1000 * found.width_m - static_cast<double>(std::min(size.width, size.height)),
+               1000 * found.height_m - height};
+    } catch (const std::exception&) {
+      // stays at 1000
+    }
+  });
+  return errors;
+}
+
+/// The error that a share of the objects does not exceed.
+double percentile(const std::vector<Errors>& errors, std::size_t which, double share) {
+  std::vector<double> sizes;
+  for (const Errors& error : errors) sizes.push_back(std::abs(error[which]));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes[static_cast<std::size_t>(share * static_cast<double>(sizes.size() - 1))];
+}
+
+}  // namespace
+
+TEST_CASE("objects of every category are found to millimetres, but for a few that hide from the camera") {
+  const std::vector<Errors> errors = overview_errors(29, kDevelopment);
+  const double limits_mm[] = {3, 3, 4, 5, 5, 5};
+  for (std::size_t which = 0; which < 6; ++which) {
+    INFO("quantity " << which);
+    CHECK(percentile(errors, which, 0.5) < 0.4 * limits_mm[which]);
+    CHECK(percentile(errors, which, 0.93) < limits_mm[which]);
+  }
+}
+
+TEST_CASE("localisation of 200 objects, measured", "[.measure]") {
+  const double limits_mm[] = {3, 3, 4, 5, 5, 5};
+  for (const Seeds& seeds : {kDevelopment, kFresh[0], kFresh[1], kFresh[2]}) {
+    const std::vector<Errors> errors = overview_errors(200, seeds);
+    for (std::size_t which = 0; which < 6; ++which) {
+      WARN("seeds " << seeds.shapes << ", " << seeds.poses << ": "
+                    << (std::array{"x", "y", "z", "length", "width", "height"}[which]) << ": median "
+                    << percentile(errors, which, 0.5) << ", 90 % " << percentile(errors, which, 0.9) << ", 95 % "
+                    << percentile(errors, which, 0.95) << " mm");
+      CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
+    }
+  }
+}
