@@ -11,6 +11,7 @@
 #include "train/contact_sheet.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
+#include "train/stages/fingerprints.h"
 
 namespace svnet {
 namespace {
@@ -96,11 +97,8 @@ EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optiona
     pipelines.push_back({name, &found->second.first, clustering_options(parsed.clustering, found->second.second)});
   }
 
-  const EvaluationOptions options{.problems = problem_count,
-                                  .seed = static_cast<std::uint64_t>(config_.seed),
-                                  .nmi = config_.evaluation.nmi == Config::Evaluation::Nmi::arithmetic
-                                             ? NmiAverage::arithmetic
-                                             : NmiAverage::geometric};
+  const EvaluationOptions options{
+      .problems = problem_count, .seed = static_cast<std::uint64_t>(config_.seed), .nmi = nmi_average(config_)};
   std::vector<bool> trained_on = held_out_;
   trained_on.flip();
   EvaluationTables tables;
@@ -134,7 +132,7 @@ std::optional<std::filesystem::path> Run::contact_sheet(std::uint64_t problem_co
   const SemanticScores scores = semantic_scores(
       squared_distances(of_views.values.data(), of_views.count, of_views.dimension, Parallel::shared()),
       clustering_problems(dataset_, trained_on, config_.scores), options, Parallel::shared(), messages_);
-  const auto& best = config_.sv_net.target == Config::SvNet::Target::individual ? scores.individual : scores.global;
+  const auto& best = training_target(config_) == Target::individual ? scores.individual : scores.global;
   const Selector selectors[] = {top_selector(dataset_), best_selector("svnet", dataset_, predicted),
                                 best_selector("best", dataset_, best)};
   const auto path = folder_ / "views.png";

@@ -3,59 +3,20 @@
 
 #include "base/parallel.h"
 #include "base/random.h"
-#include "base/sha256.h"
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/models/checkpoint.h"
-#include "models/orientation.h"
 #include "models/trained_graph.h"
 #include "predict/score_head.h"
 #include "train/epoch_order.h"
 #include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
+#include "train/stages/fingerprints.h"
 #include "train/trained_from.h"
 #include "train/trainer.h"
 
 namespace svnet {
-namespace {
-
-AngleEncoding encoding(Config::SvNet::Angles angles) {
-  switch (angles) {
-    case Config::SvNet::Angles::radians:
-      return AngleEncoding::radians;
-    case Config::SvNet::Angles::sphere:
-      return AngleEncoding::sphere;
-    case Config::SvNet::Angles::harmonics:
-      break;
-  }
-  return AngleEncoding::harmonics;
-}
-
-TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
-  const auto& t = config.training;
-  return {.epochs = t.epochs,
-          .batch_size = t.batch_size,
-          .optimizer = t.optimizer == Config::Training::Optimizer::adam ? TrainerOptions::Optimizer::adam
-                                                                        : TrainerOptions::Optimizer::sgd,
-          .momentum = t.momentum,
-          .schedule = {},
-          .seed = static_cast<std::uint64_t>(config.seed),
-          .input_fingerprint = fingerprint};
-}
-
-Schedule schedule(const Config::Training& t, Index steps_per_epoch) {
-  using Kind = Config::Training::Schedule;
-  return {.kind = t.schedule == Kind::constant ? Schedule::Kind::constant
-                  : t.schedule == Kind::step   ? Schedule::Kind::step
-                                               : Schedule::Kind::cosine,
-          .base = t.learning_rate,
-          .period = t.step_epochs * steps_per_epoch,
-          .factor = t.step_factor,
-          .total = t.epochs * steps_per_epoch};
-}
-
-}  // namespace
 
 std::vector<bool> Run::validation_categories() const {
   std::vector<std::int32_t> candidates;
@@ -73,24 +34,9 @@ std::vector<bool> Run::validation_categories() const {
 }
 
 std::string Run::model_fingerprint() {
-  const std::string features = features_fingerprint(config_.sv_net.backbone, config_.sv_net.layer);
   const std::string scores =
       scores_fingerprint(features_fingerprint(config_.scores.backbone, config_.scores.layer), config_);
-  const auto& n = config_.sv_net;
-  const auto& t = config_.training;
-  Sha256 hash;
-  hash.update_field("model 1").update_field(features).update_field(scores).update_field(
-      joined_with("\n", config_.dataset.held_out));
-  hash.update_field(joined(config_.seed, " ", n.width, " ", static_cast<int>(n.angles), " ", static_cast<int>(n.target),
-                           " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
-                           static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
-                           std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
-  if (t.fine_tune != Config::Training::FineTune::none)
-    hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
-  if (n.orientations != Config::SvNet::Orientations::as_taken) hash.update_field("all orientations");
-  if (t.augmentation != Config::Training::Augmentation::none)
-    hash.update_field(joined("augmentation ", static_cast<int>(t.augmentation)));
-  return hash.hex();
+  return svnet::model_fingerprint(features_fingerprint(config_.sv_net.backbone, config_.sv_net.layer), scores, config_);
 }
 
 Model Run::model(Resume resume) {
@@ -106,14 +52,14 @@ Model Run::model(Resume resume) {
 
   predicted_.reset();
   const BackboneWithOrigin& source = backbone(config_.sv_net.backbone, config_.sv_net.layer);
-  const AngleEncoding angles = encoding(config_.sv_net.angles);
+  const AngleEncoding angles = angle_encoding(config_);
   Model model{.backbone = source.backbone.kind().name,
               .backbone_output = source.backbone.output_name(),
               .preprocessing = source.backbone.preprocessing(),
               .backbone_graph = source.backbone.graph(),
               .backbone_parameters = source.backbone.parameters(),
               .angles = angles,
-              .orientations = config_.sv_net.orientations == Config::SvNet::Orientations::all ? kOrientations : 1,
+              .orientations = scored_orientations(config_),
               .head = sv_net({.features = source.backbone.dimension(),
                               .width = config_.sv_net.width,
                               .dropout = config_.sv_net.dropout,
@@ -124,8 +70,7 @@ Model Run::model(Resume resume) {
   const std::vector<bool> validating = validation_categories();
   std::vector<bool> training(held_out_.size());
   for (std::size_t c = 0; c < training.size(); ++c) training[c] = !held_out_[c] && !validating[c];
-  const Target target =
-      config_.sv_net.target == Config::SvNet::Target::individual ? Target::individual : Target::global;
+  const Target target = training_target(config_);
   const NodeId output = source.backbone.graph().find(source.backbone.output_name());
   const NodeId from = trained_from(config_.training.fine_tune, source.backbone.kind(), source.backbone.graph(), output);
   const std::unique_ptr<ViewInputs> inputs = training_inputs(source.backbone, from);
@@ -153,7 +98,7 @@ Model Run::trained_model() {
 
 std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeId from) {
   const Graph& graph = backbone.graph();
-  const int orientations = config_.training.augmentation == Config::Training::Augmentation::turns ? kOrientations : 1;
+  const int orientations = trained_orientations(config_);
   const bool all_frozen = graph.node(from).name == backbone.output_name();
   if (all_frozen && orientations == 1)
     return std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
@@ -173,7 +118,7 @@ std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeI
 void Run::train_into(Model& model, const Graph& graph, const TrainingSet& training, const TrainingSet* validation,
                      Resume resume) {
   TrainerOptions options = trainer_options(config_, model.input_fingerprint);
-  options.schedule = schedule(config_.training, batch_count(options.batch_size, training.size()));
+  options.schedule = learning_rate_schedule(config_, batch_count(options.batch_size, training.size()));
   Trainer trainer(graph, training, validation, options, communicator_);
   const auto last = folder_ / "checkpoint-last.safetensors", best = folder_ / "checkpoint-best.safetensors";
   std::optional<Checkpoint> from;

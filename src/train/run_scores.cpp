@@ -1,6 +1,7 @@
 #include "train/reused_file.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
+#include "train/stages/fingerprints.h"
 
 namespace svnet {
 

@@ -8,9 +8,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
-#include "base/sha256.h"
 #include "base/text.h"
-#include "train/clustering_choice.h"
+#include "train/stages/fingerprints.h"
 
 namespace svnet {
 namespace {
@@ -18,13 +17,6 @@ namespace {
 /// Where fewer categories take part than a problem may have, all of them are in every problem.
 Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores& s) {
   return std::min(s.min_categories, static_cast<Index>(std::count(excluded.begin(), excluded.end(), false)));
-}
-
-std::string sampler_text(const Config::Scores& s) {
-  const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
-  return joined("uniform; categories ", s.min_categories, " to ", bound(s.max_categories), ", objects ", s.min_objects,
-                " to ", bound(s.max_objects), ", one pose, one view; singletons ",
-                s.singletons == Config::Scores::Singletons::zero ? "zero" : "skip");
 }
 
 }  // namespace
@@ -50,17 +42,6 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
                          .min_objects = config.min_objects,
                          .max_objects = config.max_objects,
                          .excluded_categories = excluded_numbers}};
-}
-
-std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config) {
-  const auto& s = config.scores;
-  Sha256 hash;
-  hash.update_field("scores 1")
-      .update_field(features_fingerprint)
-      .update_field(joined_with("\n", config.dataset.held_out));
-  hash.update_field(sampler_text(s)).update_field(clustering_name(s.clustering));
-  hash.update_field(joined(config.seed, " ", s.problems, " ", s.min_samples, " ", std::hexfloat, s.target_error));
-  return hash.hex();
 }
 
 namespace {
@@ -124,16 +105,6 @@ class Snapshots {
 };
 
 }  // namespace
-
-ScoreOptions score_options(const Config& config, Index dimension) {
-  const auto& s = config.scores;
-  return {.problems = static_cast<std::uint64_t>(s.problems),
-          .min_samples = static_cast<std::uint64_t>(s.min_samples),
-          .target_error = s.target_error,
-          .seed = static_cast<std::uint64_t>(config.seed),
-          .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
-          .clustering = clustering_options(s.clustering, dimension)};
-}
 
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,

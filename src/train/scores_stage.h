@@ -19,12 +19,6 @@ namespace svnet {
 ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
                                        const Config::Scores& config);
 
-/// What `config.scores` and `config.seed` say of scores of features of that dimension.
-ScoreOptions score_options(const Config& config, Index dimension);
-
-/// Changes with everything that the scores of these features depend on.
-std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
-
 /// How work on scores is kept safe and shared.
 struct ScoresRun {
   /// Whether to go on from a snapshot: not at all, from one of the same scores, or from any there is, where one of
