@@ -65,6 +65,7 @@ struct Config {
     enum class Nmi { arithmetic, geometric };
     Index problems = 10000;
     std::vector<std::string> pipelines;  ///< empty only before parse_config has read the rest
+    std::vector<std::string> selectors;  ///< names of train/selectors.h; empty: the default ones of each table
     Nmi nmi = Nmi::arithmetic;
   };
 

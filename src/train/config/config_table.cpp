@@ -134,6 +134,8 @@ std::vector<BoundKey> bound_keys(Config& c) {
             "Number of problems that each table averages over."),
       pipelines("evaluation.pipelines", c.evaluation.pipelines,
                 "Pipelines of the tables. Empty: only the pipeline of the scores."),
+      names("evaluation.selectors", c.evaluation.selectors,
+            "Selectors of the tables. Empty: the default ones of each table; svnet-eval --help lists all."),
       choice("evaluation.nmi", c.evaluation.nmi, {"arithmetic", "geometric"},
              "Mean that normalises NMI. The paper's tables use geometric."),
   };
