@@ -54,7 +54,7 @@ void evaluation(benchmark::State& state) {
   for (auto _ : state)
     benchmark::DoNotOptimize(
         evaluate(dataset, problems, {{"a_ward", &first, ward}, {"a_kmeans", &first, kmeans}, {"b_ward", &second, ward}},
-                 {top_selector(dataset), random_selector(), best_selector("opt_ind", dataset, scores)}, options,
+                 {{"top", top_views(dataset)}, {"rand", {}}, {"opt_ind", best_views(dataset, scores)}}, options,
                  Parallel::shared(), {}, "")
             .problems);
 }

@@ -4,13 +4,14 @@
 #include "command/command.h"
 #include "command/number_check.h"
 #include "command/openblas_cap.h"
+#include "data/scores_summary.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/features_file.h"
 #include "io/views/scores_file.h"
 #include "mpi/mpi_communicator.h"
-#include "train/scores_stage.h"
-#include "train/training_set.h"
+#include "train/dataset_rows.h"
+#include "train/stages/scores.h"
 
 namespace svnet {
 namespace {
@@ -105,9 +106,10 @@ int run(int argc, char** argv, Communicator& communicator) {
         check(fewest->empty() || s.min_categories <= available, "--min-categories: ", s.min_categories, ", but ",
               available, " categories take part");
         const Scores scores = make_scores(output, dataset, features, left_out, config, console.messages(),
-                                          {.resume = resume ? ScoresRun::Resume::any : ScoresRun::Resume::never,
+                                          {.resume = resume ? Resume::any : Resume::never,
                                            .snapshot_seconds = snapshot_seconds,
                                            .communicator = communicator});
+        if (communicator.is_root()) write_made_scores(output, scores);
         console.result(joined(output.string(), ": ", scores.problems, " problems"));
         console.result(certainty_text(scores));
       },

@@ -7,13 +7,13 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "data/scores_summary.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/keras/keras_weights.h"
 #include "io/tensors/safetensors.h"
 #include "io/views/features_file.h"
 #include "io/views/scores_file.h"
 #include "nn/tensor.h"
-#include "train/scores_stage.h"
 
 namespace svnet {
 namespace {

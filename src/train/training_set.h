@@ -43,12 +43,4 @@ class TrainingSet {
   std::vector<Example> examples_;
 };
 
-/// Throws Error, beginning with `what`, unless `paths` are the dataset's views in its order.
-void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what);
-
-/// For each category of the dataset, whether it is among `names`. Throws Error, with `key` and the nearest category,
-/// for a name that is no category.
-std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
-                                   const std::string& key);
-
 }  // namespace svnet

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "io/images/image_file.h"
 #include "models/orientation.h"
-#include "train/training_set.h"
+#include "train/dataset_rows.h"
 
 namespace svnet {
 namespace {

@@ -21,7 +21,7 @@ TEST_CASE("a contact sheet shows the views that its selectors choose") {
   REQUIRE(poses == std::vector<Index>{2, 3, 6, 7});  // 2 objects of cone, 2 of ring
   std::vector<double> scores(dataset.views.size(), 0.0);
   for (std::size_t v = 0; v < dataset.views.size(); ++v) scores[v] = dataset.views[v].path == "cone/1/1/45_90.png";
-  const std::vector<Selector> selectors{top_selector(dataset), best_selector("best", dataset, scores)};
+  const std::vector<Selector> selectors{{"top", top_views(dataset)}, {"best", best_views(dataset, scores)}};
   const Image sheet = contact_sheet(dataset, poses, selectors);
   // Two lines of two groups of two pictures.
   CHECK(sheet.width == 20 + 2 * (2 * 116 + 20));
