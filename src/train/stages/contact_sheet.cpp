@@ -1,9 +1,9 @@
 #include "train/stages/contact_sheet.h"
 
 #include "io/images/image_file.h"
-#include "train/contact_sheet.h"
 #include "train/stages/fingerprints.h"
 #include "train/stages/held_out_scores.h"
+#include "train/view_sheet.h"
 
 namespace svnet {
 
@@ -16,7 +16,7 @@ std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const E
                                 {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};
   const auto path = run.folder / "views.png";
-  write_png(path, contact_sheet(run.dataset, sheet_poses(run.dataset, run.held_out), selectors));
+  write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, run.held_out), selectors));
   return path;
 }
 

@@ -1,4 +1,4 @@
-#include "train/plan_text.h"
+#include "info/plan_text.h"
 
 #include <catch2/catch.hpp>
 #include <sstream>

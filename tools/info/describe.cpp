@@ -1,4 +1,4 @@
-#include "train/describe.h"
+#include "info/describe.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "train/contact_sheet.h"
+#include "train/view_sheet.h"
 
 #include <catch2/catch.hpp>
 
@@ -22,7 +22,7 @@ TEST_CASE("a contact sheet shows the views that its selectors choose") {
   std::vector<double> scores(dataset.views.size(), 0.0);
   for (std::size_t v = 0; v < dataset.views.size(); ++v) scores[v] = dataset.views[v].path == "cone/1/1/45_90.png";
   const std::vector<Selector> selectors{{"top", top_views(dataset)}, {"best", best_views(dataset, scores)}};
-  const Image sheet = contact_sheet(dataset, poses, selectors);
+  const Image sheet = view_sheet(dataset, poses, selectors);
   // Two lines of two groups of two pictures.
   CHECK(sheet.width == 20 + 2 * (2 * 116 + 20));
   CHECK(sheet.height == 20 + 2 * (112 + 36 + 20));
