@@ -95,7 +95,7 @@ TEST_CASE("every kind of layer survives JSON") {
             DepthwiseConv2dLayer{.kh = 3, .kw = 3, .multiplier = 2, .padding = Padding::of(1, 0, 1, 0), .bias = false},
             {x});
   x = g.add("sep", SeparableConv2dLayer{.filters = 5, .kh = 3, .kw = 3}, {x});
-  x = g.add("bn", BatchNormLayer{{.momentum = 0.1, .epsilon = 1e-5, .convention = ops::MomentumConvention::pytorch}},
+  x = g.add("bn", BatchNormLayer{{.momentum = 0.1, .epsilon = 1e-5, .convention = MomentumConvention::pytorch}},
             {x});
   const NodeId a = g.add("act", ActivationLayer{Activation::sigmoid}, {x});
   x = g.add("sum", AddLayer{}, {x, a});

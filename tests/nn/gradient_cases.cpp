@@ -124,7 +124,7 @@ void add_batch_norm(Cases& cases) {
   for (const Shape& s : {Shape{9, 4}, Shape{2, 4}, Shape{3, 5, 7, 4}}) {
     const Inputs inputs{random_tensor(s, 20, DType::f64, -1, 3), random_tensor({4}, 21, DType::f64, 0.5, 2),
                         random_tensor({4}, 22)};
-    for (auto convention : {ops::MomentumConvention::keras, ops::MomentumConvention::pytorch})
+    for (auto convention : {MomentumConvention::keras, MomentumConvention::pytorch})
       cases.push_back({"batch_norm_training", to_string(s), inputs, [convention](const Inputs& in) {
                          const DType dtype = in[0].dtype();
                          Tensor mean = Tensor::zeros({4}, dtype), variance = Tensor::full({4}, 1, dtype);
