@@ -5,6 +5,7 @@
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
 #include "nn/ops/dropout.h"
+#include "nn/ops/multiply.h"
 #include "nn/ops/pooling.h"
 #include "nn/ops/shaping.h"
 
@@ -72,6 +73,7 @@ class Runner {
 
   Tensor run(const ZeroPadding2dLayer& l, const At& at) const { return ops::zero_padding2d(at.x, l.padding); }
   Tensor run(const AddLayer&, const At& at) const { return ops::add(at.inputs); }
+  Tensor run(const MultiplyLayer&, const At& at) const { return ops::multiply(at.inputs[0], at.inputs[1]); }
   Tensor run(const ConcatLayer&, const At& at) const { return ops::concat(at.inputs); }
   Tensor run(const FlattenLayer&, const At& at) const { return ops::flatten(at.x); }
 

@@ -15,6 +15,7 @@
 #include "nn/layers/flatten.h"
 #include "nn/layers/global_pool2d.h"
 #include "nn/layers/input.h"
+#include "nn/layers/multiply.h"
 #include "nn/layers/pool2d.h"
 #include "nn/layers/reshape.h"
 #include "nn/layers/separable_conv2d.h"
@@ -47,7 +48,7 @@ using LayerVariant = std::variant<L...>;
 /// What a node of a Graph does.
 using Layer = LayerVariant<InputLayer, Conv2dLayer, DepthwiseConv2dLayer, SeparableConv2dLayer, DenseLayer,
                            BatchNormLayer, ActivationLayer, Pool2dLayer, GlobalPool2dLayer, ZeroPadding2dLayer,
-                           AddLayer, ConcatLayer, FlattenLayer, ReshapeLayer, DropoutLayer>;
+                           AddLayer, MultiplyLayer, ConcatLayer, FlattenLayer, ReshapeLayer, DropoutLayer>;
 
 /// Keras' class name of the layer: "Conv2D", "BatchNormalization", ….
 const char* keras_name(const Layer&);

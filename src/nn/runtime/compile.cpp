@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "nn/kernels/batch_norm/channel_norm.h"
+#include "nn/kernels/multiply/multiply.h"
 #include "nn/runtime/folding.h"
 #include "nn/runtime/fusion.h"
+#include "nn/runtime/plain_step.h"
 
 namespace svnet::runtime {
 namespace {
@@ -118,6 +120,20 @@ class Compiler {
       values.push_back(value_[at(terms[i])]);
     }
     push(f.last, add_step(size(f.main), values.size(), f.finish.clamp), values);
+  }
+
+  void emit_step(const Fused& f, const MultiplyLayer&) {
+    const auto& factors = node(f.main).inputs;
+    const bool swapped = size(factors[0]) < size(factors[1]);
+    const NodeId x = factors[swapped ? 1 : 0], factor = factors[swapped ? 0 : 1];
+    const Index columns = node(x).shape.empty() ? 1 : channels(x);
+    const Index positions = size(x) / columns;
+    const bool per_channel = size(factor) < size(x);
+    const auto body = [=](const StepBuffers& b) {
+      const kernels::MultiplyShape shape{b.batch, positions, columns, per_channel};
+      kernels::multiply(b.parallel, shape, b.inputs[0], b.inputs[1], b.output);
+    };
+    push(f.last, plain_step("multiply", size(x), body), {value_[at(x)], value_[at(factor)]});
   }
 
   void emit_step(Fused f, const Conv2dLayer& l) {

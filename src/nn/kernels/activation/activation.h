@@ -12,14 +12,17 @@
 
 namespace svnet {
 
-enum class Activation { none, relu, relu6, sigmoid, softmax };
+enum class Activation { none, relu, relu6, sigmoid, hard_sigmoid, hard_swish, softmax };
 
 template <>
-inline constexpr auto enum_names<Activation> = std::to_array<EnumName<Activation>>({{Activation::none, "linear"},
-                                                                                    {Activation::relu, "relu"},
-                                                                                    {Activation::relu6, "relu6"},
-                                                                                    {Activation::sigmoid, "sigmoid"},
-                                                                                    {Activation::softmax, "softmax"}});
+inline constexpr auto enum_names<Activation> =
+    std::to_array<EnumName<Activation>>({{Activation::none, "linear"},
+                                         {Activation::relu, "relu"},
+                                         {Activation::relu6, "relu6"},
+                                         {Activation::sigmoid, "sigmoid"},
+                                         {Activation::hard_sigmoid, "hard_sigmoid"},
+                                         {Activation::hard_swish, "hard_swish"},
+                                         {Activation::softmax, "softmax"}});
 
 namespace kernels {
 
@@ -80,6 +83,30 @@ struct Sigmoid {
   }
 };
 
+/// relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 and at 3 is 0.
+struct HardSigmoid {
+  template <class T>
+  static T value(T x) {
+    return Relu6::value(x + T{3}) / T{6};
+  }
+  template <class T>
+  static T slope_at_output(T y) {
+    return y > T{0} && y < T{1} ? T{1} / T{6} : T{0};
+  }
+};
+
+/// x · relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 is 0, at 3 it is 1.
+struct HardSwish {
+  template <class T>
+  static T value(T x) {
+    return x * HardSigmoid::value(x);
+  }
+  template <class T>
+  static T slope_at_input(T x) {
+    return x <= T{-3} ? T{0} : x >= T{3} ? T{1} : (T{2} * x + T{3}) / T{6};
+  }
+};
+
 /// exp(x) / Σ exp(x) over a row. Shifted by the largest element, so that it never overflows.
 struct Softmax {
   /// x and y have `classes` elements; y may be x.
@@ -104,6 +131,10 @@ decltype(auto) with_activation(Activation activation, Body&& body) {
       return body(Relu6{});
     case Activation::sigmoid:
       return body(Sigmoid{});
+    case Activation::hard_sigmoid:
+      return body(HardSigmoid{});
+    case Activation::hard_swish:
+      return body(HardSwish{});
     case Activation::softmax:
       return body(Softmax{});
   }
