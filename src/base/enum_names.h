@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <vector>
@@ -32,7 +33,7 @@ inline constexpr bool has_enum_names = !std::is_same_v<decltype(enum_names<Enum>
 
 /// Requires a table that has the value.
 template <class Enum>
-const char* name_of(Enum value) {
+constexpr const char* name_of(Enum value) {
   static_assert(has_enum_names<Enum>, "specialise enum_names for this enum");
   const auto entry = std::find_if(enum_names<Enum>.begin(), enum_names<Enum>.end(),
                                   [value](const EnumName<Enum>& e) { return e.value == value; });
@@ -49,12 +50,20 @@ std::vector<std::string> names_of() {
   return names;
 }
 
+/// The value of that name, if the table has it: for callers with a message of their own.
+template <class Enum>
+std::optional<Enum> find_enum(const std::string& name) {
+  static_assert(has_enum_names<Enum>, "specialise enum_names for this enum");
+  for (const EnumName<Enum>& entry : enum_names<Enum>)
+    if (name == entry.name) return entry.value;
+  return {};
+}
+
 /// Throws Error "<what>: '<name>' is none of a, b, c", with the nearest known name if one is near.
 template <class Enum>
 Enum enum_from_name(const std::string& what, const std::string& name) {
+  if (const std::optional<Enum> value = find_enum<Enum>(name)) return *value;
   const std::vector<std::string> names = names_of<Enum>();
-  for (const EnumName<Enum>& entry : enum_names<Enum>)
-    if (name == entry.name) return entry.value;
   const std::string nearest = nearest_name(name, names);
   fail(what, ": '", name, "' is none of ", joined_with(", ", names),
        nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
