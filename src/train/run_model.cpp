@@ -34,14 +34,14 @@ AngleEncoding encoding(Config::SvNet::Angles angles) {
 
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
   const auto& t = config.training;
-  return {.epochs = t.epochs,
-          .batch_size = t.batch_size,
-          .optimizer = t.optimizer == Config::Training::Optimizer::adam ? TrainerOptions::Optimizer::adam
-                                                                        : TrainerOptions::Optimizer::sgd,
-          .momentum = t.momentum,
-          .schedule = {},
-          .seed = static_cast<std::uint64_t>(config.seed),
-          .input_fingerprint = fingerprint};
+  return {
+      .epochs = t.epochs,
+      .batch_size = t.batch_size,
+      .optimizer = {.kind = t.optimizer == Config::Training::Optimizer::adam ? OptimizerKind::adam : OptimizerKind::sgd,
+                    .momentum = t.momentum},
+      .schedule = {},
+      .seed = static_cast<std::uint64_t>(config.seed),
+      .input_fingerprint = fingerprint};
 }
 
 Schedule schedule(const Config::Training& t, Index steps_per_epoch) {
