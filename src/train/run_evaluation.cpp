@@ -7,7 +7,6 @@
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_file.h"
-#include "train/clustering_choice.h"
 #include "train/contact_sheet.h"
 #include "train/run.h"
 #include "train/scores_stage.h"
@@ -93,14 +92,11 @@ EvaluationTables Run::evaluation(std::uint64_t problem_count, const std::optiona
                                      f.dimension))
                   .first;
     }
-    pipelines.push_back({name, &found->second.first, clustering_options(parsed.clustering, found->second.second)});
+    pipelines.push_back({name, &found->second.first, {.method = parsed.clustering, .dimension = found->second.second}});
   }
 
-  const EvaluationOptions options{.problems = problem_count,
-                                  .seed = static_cast<std::uint64_t>(config_.seed),
-                                  .nmi = config_.evaluation.nmi == Config::Evaluation::Nmi::arithmetic
-                                             ? NmiAverage::arithmetic
-                                             : NmiAverage::geometric};
+  const EvaluationOptions options{
+      .problems = problem_count, .seed = static_cast<std::uint64_t>(config_.seed), .nmi = config_.evaluation.nmi};
   std::vector<bool> trained_on = held_out_;
   trained_on.flip();
   EvaluationTables tables;
@@ -134,7 +130,7 @@ std::optional<std::filesystem::path> Run::contact_sheet(std::uint64_t problem_co
   const SemanticScores scores = semantic_scores(
       squared_distances(of_views.values.data(), of_views.count, of_views.dimension, Parallel::shared()),
       clustering_problems(dataset_, trained_on, config_.scores), options, Parallel::shared(), messages_);
-  const auto& best = config_.sv_net.target == Config::SvNet::Target::individual ? scores.individual : scores.global;
+  const auto& best = config_.sv_net.target == Target::individual ? scores.individual : scores.global;
   const Selector selectors[] = {top_selector(dataset_), best_selector("svnet", dataset_, predicted),
                                 best_selector("best", dataset_, best)};
   const auto path = folder_ / "views.png";

@@ -20,35 +20,18 @@
 namespace svnet {
 namespace {
 
-AngleEncoding encoding(Config::SvNet::Angles angles) {
-  switch (angles) {
-    case Config::SvNet::Angles::radians:
-      return AngleEncoding::radians;
-    case Config::SvNet::Angles::sphere:
-      return AngleEncoding::sphere;
-    case Config::SvNet::Angles::harmonics:
-      break;
-  }
-  return AngleEncoding::harmonics;
-}
-
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
   const auto& t = config.training;
-  return {
-      .epochs = t.epochs,
-      .batch_size = t.batch_size,
-      .optimizer = {.kind = t.optimizer == Config::Training::Optimizer::adam ? OptimizerKind::adam : OptimizerKind::sgd,
-                    .momentum = t.momentum},
-      .schedule = {},
-      .seed = static_cast<std::uint64_t>(config.seed),
-      .input_fingerprint = fingerprint};
+  return {.epochs = t.epochs,
+          .batch_size = t.batch_size,
+          .optimizer = {.kind = t.optimizer, .momentum = t.momentum},
+          .schedule = {},
+          .seed = static_cast<std::uint64_t>(config.seed),
+          .input_fingerprint = fingerprint};
 }
 
 Schedule schedule(const Config::Training& t, Index steps_per_epoch) {
-  using Kind = Config::Training::Schedule;
-  return {.kind = t.schedule == Kind::constant ? Schedule::Kind::constant
-                  : t.schedule == Kind::step   ? Schedule::Kind::step
-                                               : Schedule::Kind::cosine,
+  return {.kind = t.schedule,
           .base = t.learning_rate,
           .period = t.step_epochs * steps_per_epoch,
           .factor = t.step_factor,
@@ -85,10 +68,9 @@ std::string Run::model_fingerprint() {
                            " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
                            static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
                            std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
-  if (t.fine_tune != Config::Training::FineTune::none)
-    hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
-  if (n.orientations != Config::SvNet::Orientations::as_taken) hash.update_field("all orientations");
-  if (t.augmentation != Config::Training::Augmentation::none)
+  if (t.fine_tune != FineTune::none) hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
+  if (n.orientations != Orientations::as_taken) hash.update_field("all orientations");
+  if (t.augmentation != TopViewAugmentation::none)
     hash.update_field(joined("augmentation ", static_cast<int>(t.augmentation)));
   return hash.hex();
 }
@@ -106,14 +88,14 @@ Model Run::model(Resume resume) {
 
   predicted_.reset();
   const BackboneWithOrigin& source = backbone(config_.sv_net.backbone, config_.sv_net.layer);
-  const AngleEncoding angles = encoding(config_.sv_net.angles);
+  const AngleEncoding angles = config_.sv_net.angles;
   Model model{.backbone = source.backbone.kind().name,
               .backbone_output = source.backbone.output_name(),
               .preprocessing = source.backbone.preprocessing(),
               .backbone_graph = source.backbone.graph(),
               .backbone_parameters = source.backbone.parameters(),
               .angles = angles,
-              .orientations = config_.sv_net.orientations == Config::SvNet::Orientations::all ? kOrientations : 1,
+              .orientations = config_.sv_net.orientations == Orientations::all ? kOrientations : 1,
               .head = sv_net({.features = source.backbone.dimension(),
                               .width = config_.sv_net.width,
                               .dropout = config_.sv_net.dropout,
@@ -124,8 +106,7 @@ Model Run::model(Resume resume) {
   const std::vector<bool> validating = validation_categories();
   std::vector<bool> training(held_out_.size());
   for (std::size_t c = 0; c < training.size(); ++c) training[c] = !held_out_[c] && !validating[c];
-  const Target target =
-      config_.sv_net.target == Config::SvNet::Target::individual ? Target::individual : Target::global;
+  const Target target = config_.sv_net.target;
   const NodeId output = source.backbone.graph().find(source.backbone.output_name());
   const NodeId from = trained_from(config_.training.fine_tune, source.backbone.kind(), source.backbone.graph(), output);
   const std::unique_ptr<ViewInputs> inputs = training_inputs(source.backbone, from);
@@ -153,7 +134,7 @@ Model Run::trained_model() {
 
 std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeId from) {
   const Graph& graph = backbone.graph();
-  const int orientations = config_.training.augmentation == Config::Training::Augmentation::turns ? kOrientations : 1;
+  const int orientations = config_.training.augmentation == TopViewAugmentation::turns ? kOrientations : 1;
   const bool all_frozen = graph.node(from).name == backbone.output_name();
   if (all_frozen && orientations == 1)
     return std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
@@ -209,7 +190,7 @@ const std::vector<double>& Run::predictions() {
 
 std::vector<double> Run::predicted_scores(const Model& model) {
   std::unique_ptr<ViewInputs> inputs;
-  if (config_.training.fine_tune == Config::Training::FineTune::none && model.orientations == 1)
+  if (config_.training.fine_tune == FineTune::none && model.orientations == 1)
     inputs = std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
   else
     inputs =

@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/text.h"
-#include "train/clustering_choice.h"
 
 namespace svnet {
 namespace {
@@ -23,8 +22,7 @@ Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores&
 std::string sampler_text(const Config::Scores& s) {
   const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
   return joined("uniform; categories ", s.min_categories, " to ", bound(s.max_categories), ", objects ", s.min_objects,
-                " to ", bound(s.max_objects), ", one pose, one view; singletons ",
-                s.singletons == Config::Scores::Singletons::zero ? "zero" : "skip");
+                " to ", bound(s.max_objects), ", one pose, one view; singletons ", name_of(s.singletons));
 }
 
 }  // namespace
@@ -58,7 +56,7 @@ std::string scores_fingerprint(const std::string& features_fingerprint, const Co
   hash.update_field("scores 1")
       .update_field(features_fingerprint)
       .update_field(joined_with("\n", config.dataset.held_out));
-  hash.update_field(sampler_text(s)).update_field(clustering_name(s.clustering));
+  hash.update_field(sampler_text(s)).update_field(name_of(s.clustering));
   hash.update_field(joined(config.seed, " ", s.problems, " ", s.min_samples, " ", std::hexfloat, s.target_error));
   return hash.hex();
 }
@@ -131,8 +129,8 @@ ScoreOptions score_options(const Config& config, Index dimension) {
           .min_samples = static_cast<std::uint64_t>(s.min_samples),
           .target_error = s.target_error,
           .seed = static_cast<std::uint64_t>(config.seed),
-          .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
-          .clustering = clustering_options(s.clustering, dimension)};
+          .singletons = s.singletons,
+          .clustering = {.method = s.clustering, .dimension = dimension}};
 }
 
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
@@ -157,7 +155,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
                              .seed = options.seed,
                              .sampler = sampler_text(drawn),
-                             .clustering = clustering_name(drawn.clustering),
+                             .clustering = name_of(drawn.clustering),
                              .metric = "fm",
                              .input_fingerprint = fingerprint},
                 std::move(made.individual),
