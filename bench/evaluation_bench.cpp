@@ -48,8 +48,7 @@ void evaluation(benchmark::State& state) {
   }
   const DistanceMatrix first = random_distances(dataset, 1), second = random_distances(dataset, 2);
   const ClusteringProblems problems(category, object, pose);
-  const ClusteringOptions ward{.dimension = 2048},
-      kmeans{.method = ClusteringOptions::Method::kmeans, .dimension = 2048};
+  const ClusteringOptions ward{.dimension = 2048}, kmeans{.method = Clustering::kmeans, .dimension = 2048};
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(state.range(0))};
   for (auto _ : state)
     benchmark::DoNotOptimize(

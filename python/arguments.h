@@ -9,7 +9,9 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "base/enum_names.h"
 #include "base/index.h"
+#include "base/text.h"
 #include "image/image.h"
 #include "semantics/distances.h"
 #include "view/pose.h"
@@ -69,6 +71,16 @@ std::uint64_t whole_number(const char* function, const char* argument, const pyb
                            std::uint64_t lowest = 0, std::uint64_t highest = ~std::uint64_t{0});
 /// The same in [lowest, 2^63).
 Index count_of(const char* function, const char* argument, const pybind11::object& given, std::uint64_t lowest = 1);
+
+/// The names of an enum as messages list them: "a", "b" or "c", in quotes.
+template <class Enum>
+std::string quoted_names() {
+  std::vector<std::string> names = names_of<Enum>();
+  for (std::string& name : names) name = '"' + name + '"';
+  const std::string last = names.back();
+  names.pop_back();
+  return joined_with(", ", names) + " or " + last;
+}
 
 /// A str, as UTF-8; lone surrogates are written as \udcff. Throws Error for anything else.
 std::string text(const char* function, const char* argument, const pybind11::object& given, const char* expected);

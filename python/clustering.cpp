@@ -78,7 +78,7 @@ py::array_t<std::int64_t> ward(const py::object& features, const py::object& n_c
 py::array_t<std::int64_t> agglomerative(const py::object& features, const py::object& n_clusters,
                                         const py::object& linkage) {
   constexpr const char* kFunction = "agglomerative";
-  const std::string name = text(kFunction, "linkage", linkage, R"("ward", "average", "complete" or "single")");
+  const std::string name = text(kFunction, "linkage", linkage, quoted_names<Linkage>().c_str());
   return agglomerated(kFunction, features, n_clusters, linkage_named(name));
 }
 

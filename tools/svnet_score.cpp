@@ -57,12 +57,12 @@ int run(int argc, char** argv, Communicator& communicator) {
   problems->excludes(error);
   command.app()
       .add_option("--linkage", linkage, "How problems are clustered")
-      ->check(CLI::IsMember({"ward", "average", "complete", "single", "kmeans"}))
+      ->check(CLI::IsMember(names_of<Clustering>()))
       ->capture_default_str();
   command.app()
       .add_option("--singletons", singletons,
                   "A view without a partner of its category counts 0 (zero) or is left out (skip)")
-      ->check(CLI::IsMember({"zero", "skip"}))
+      ->check(CLI::IsMember(names_of<Singletons>()))
       ->capture_default_str();
   command.app()
       .add_option("--seed", config.seed, "Of the random problems")
@@ -90,8 +90,8 @@ int run(int argc, char** argv, Communicator& communicator) {
         auto& s = config.scores;
         if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
           wrong_usage("give one of --min-samples, --problems, --target-error");
-        s.clustering = clustering_from_name(linkage);
-        s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
+        s.clustering = enum_from_name<Clustering>("--linkage", linkage);
+        s.singletons = enum_from_name<Singletons>("--singletons", singletons);
         config.dataset.held_out = excluded;
         if (communicator.is_root()) check_can_be_written(output, {features_file});
         const ViewDataset dataset = read_view_dataset(dataset_folder);

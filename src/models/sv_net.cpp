@@ -1,7 +1,5 @@
 #include "models/sv_net.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -10,8 +8,6 @@
 
 namespace svnet {
 namespace {
-
-constexpr std::array<const char*, 3> kEncodings{"radians", "sphere", "harmonics"};  // in the order of the enumeration
 
 NodeId dropped(Graph& g, const std::string& name, NodeId x, double rate) {
   return rate > 0 ? g.add(name, DropoutLayer{rate}, {x}) : x;
@@ -26,13 +22,11 @@ NodeId dense_block(Graph& g, const std::string& prefix, NodeId x, Index units) {
 
 }  // namespace
 
-const char* name_of(AngleEncoding encoding) { return kEncodings[static_cast<std::size_t>(encoding)]; }
-
 AngleEncoding angle_encoding_named(const std::string& text) {
-  const auto found = std::find(kEncodings.begin(), kEncodings.end(), text);
-  check(found != kEncodings.end(), "[sv_net] there is no angle encoding '", text, "'",
-        suggestion(text, std::vector<std::string>(kEncodings.begin(), kEncodings.end())));
-  return static_cast<AngleEncoding>(found - kEncodings.begin());
+  const auto found = find_enum<AngleEncoding>(text);
+  check(found.has_value(), "[sv_net] there is no angle encoding '", text, "'",
+        suggestion(text, names_of<AngleEncoding>()));
+  return *found;
 }
 
 Index angle_count(AngleEncoding encoding) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <string>
 
+#include "base/enum_names.h"
 #include "nn/graph/graph.h"
 
 namespace svnet {
@@ -10,7 +11,9 @@ namespace svnet {
 /// are as easily told to be alike as to differ, and the numbers are large enough to be heard beside hundreds of
 /// activations.
 enum class AngleEncoding { radians, sphere, harmonics };
-const char* name_of(AngleEncoding);
+template <>
+inline constexpr auto enum_names<AngleEncoding> = std::to_array<EnumName<AngleEncoding>>(
+    {{AngleEncoding::radians, "radians"}, {AngleEncoding::sphere, "sphere"}, {AngleEncoding::harmonics, "harmonics"}});
 /// Throws Error for an unknown name.
 AngleEncoding angle_encoding_named(const std::string& name);
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "nn/autograd.h"
+#include "nn/autograd_node.h"
 #include "nn/storage.h"
 
 namespace svnet {

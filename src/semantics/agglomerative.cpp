@@ -1,30 +1,17 @@
 #include "semantics/agglomerative.h"
 
 #include <algorithm>
-#include <array>
-#include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "semantics/agglomerate.h"
 
 namespace svnet {
-namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"ward", "average", "complete", "single"};
-
-}  // namespace
-
-std::string_view linkage_name(Linkage linkage) { return kNames[static_cast<std::size_t>(linkage)]; }
-
-Linkage linkage_named(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) {
-    const std::vector<std::string> known(kNames.begin(), kNames.end());
-    fail("[linkage] '", name, "' is unknown", suggestion(name, known));
-  }
-  return static_cast<Linkage>(found - kNames.begin());
+Linkage linkage_named(const std::string& name) {
+  const auto found = find_enum<Linkage>(name);
+  check(found.has_value(), "[linkage] '", name, "' is unknown", suggestion(name, names_of<Linkage>()));
+  return *found;
 }
 
 Agglomerative::Agglomerative(Linkage linkage, Index max_points)

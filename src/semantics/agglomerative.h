@@ -1,17 +1,22 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string_view>
+#include <string>
 
+#include "base/enum_names.h"
 #include "semantics/problem_distances.h"
 
 namespace svnet {
 
 enum class Linkage { ward, average, complete, single };
 
-std::string_view linkage_name(Linkage linkage);
+template <>
+inline constexpr auto enum_names<Linkage> = std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"},
+                                                                              {Linkage::average, "average"},
+                                                                              {Linkage::complete, "complete"},
+                                                                              {Linkage::single, "single"}});
 /// Throws Error for an unknown name.
-Linkage linkage_named(std::string_view name);
+Linkage linkage_named(const std::string& name);
 
 /// Agglomerative clustering from distances, and the memory it needs. The pair of clusters with the smallest
 /// dissimilarity is merged until k are left: Ward, complete and single on squared distances (the partitions are those

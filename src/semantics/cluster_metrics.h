@@ -3,6 +3,7 @@
 #include <span>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -11,9 +12,15 @@ namespace svnet {
 /// no true pair: 0, as scikit-learn takes 0/0, or NaN, to be left out of means. An item with true partners that the
 /// clustering left alone has missed them: 0 in both cases.
 enum class Singletons { zero, skip };
+template <>
+inline constexpr auto enum_names<Singletons> = std::to_array<EnumName<Singletons>>({{Singletons::zero, "zero"},
+                                                                                    {Singletons::skip, "skip"}});
 
 /// What mutual information is divided by: a mean of the two entropies.
 enum class NmiAverage { arithmetic, geometric };
+template <>
+inline constexpr auto enum_names<NmiAverage> =
+    std::to_array<EnumName<NmiAverage>>({{NmiAverage::arithmetic, "arithmetic"}, {NmiAverage::geometric, "geometric"}});
 
 /// How two labellings of the same items meet: counts from which every metric follows, and the memory they need.
 /// Pairs are counted in 64 bits. Not thread-safe.

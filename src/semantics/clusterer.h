@@ -8,21 +8,30 @@
 
 namespace svnet {
 
+/// The algorithms: agglomerative clustering by its linkage, and k-means.
+enum class Clustering { ward, average, complete, single, kmeans };
+template <>
+inline constexpr auto enum_names<Clustering> =
+    std::to_array<EnumName<Clustering>>({{Clustering::ward, name_of(Linkage::ward)},
+                                         {Clustering::average, name_of(Linkage::average)},
+                                         {Clustering::complete, name_of(Linkage::complete)},
+                                         {Clustering::single, name_of(Linkage::single)},
+                                         {Clustering::kmeans, "kmeans"}});
+
 struct ClusteringOptions {
-  enum class Method { agglomerative, kmeans };
-  Method method = Method::agglomerative;
-  Linkage linkage = Linkage::ward;
+  Clustering method = Clustering::ward;
   KMeansOptions kmeans{};
-  Index dimension = 1;  ///< of the features; k-means' tolerance needs it
+  Index dimension = 1;  ///< of the features: k-means scales its tolerance by it
 };
 
-/// The clustering algorithm that the options name, and the memory it needs. Not thread-safe: one object per thread.
+/// Clusters by the algorithm that the options name; owns the memory that it needs. Not thread-safe: one object per
+/// thread.
 class Clusterer {
  public:
   Clusterer(const ClusteringOptions& options, Index max_points, Index max_clusters);
 
-  /// labels[i] is the cluster of rows[i], numbered from 0 in order of first appearance. Problem `number` has random
-  /// numbers of its own. Allocates nothing. Throws Error for k outside [1, rows.size()].
+  /// labels[i] becomes the cluster of rows[i], numbered from 0 in order of first appearance. k-means draws from the
+  /// stream of problem `number`. Allocates nothing. Throws Error for k outside [1, rows.size()].
   void cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::uint64_t seed,
                std::uint64_t number, std::span<std::int32_t> labels);
   /// The same of points whose distances are already together.

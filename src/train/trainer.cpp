@@ -10,7 +10,6 @@
 #include "base/parallel.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
-#include "nn/optim/optimizer.h"
 #include "train/epoch_order.h"
 #include "train/training_step.h"
 
@@ -54,16 +53,12 @@ Trainer::Trainer(const Graph& graph, const TrainingSet& training, const Training
 }
 
 std::unique_ptr<Optimizer> Trainer::new_optimizer(const Parameters& parameters) const {
-  auto tensors = trainable(graph_, parameters);
-  if (options_.optimizer == TrainerOptions::Optimizer::sgd)
-    return sgd(std::move(tensors), {.momentum = options_.momentum});
-  return adam(std::move(tensors));
+  return make_optimizer(trainable(graph_, parameters), options_.optimizer);
 }
 
 std::vector<Shape> Trainer::optimizer_shapes() const {
   std::vector<Shape> shapes;  // one of each parameter and moment
-  const int moments = options_.optimizer == TrainerOptions::Optimizer::sgd ? 1 : 2;
-  for (int moment = 0; moment < moments; ++moment)
+  for (int moment = 0; moment < moments(options_.optimizer.kind); ++moment)
     for (const auto& node : graph_.nodes())
       for (const auto& spec : node.parameters)
         if (spec.trainable) shapes.push_back(spec.shape);

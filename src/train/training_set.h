@@ -5,11 +5,10 @@
 #include "io/views/scores_file.h"
 #include "models/sv_net.h"
 #include "nn/tensor.h"
+#include "train/config/choices.h"
 #include "train/view_inputs.h"
 
 namespace svnet {
-
-enum class Target { individual, global };
 
 /// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view, in every orientation
 /// that the inputs have.

@@ -14,8 +14,8 @@ struct StepOptions {
   const char* task = "training";  ///< begins error messages
   double learning_rate = 0;
   std::uint64_t seed = 0;  ///< of dropout
-  /// Whether gradients of dense layers are formed, or kept as two factors for the optimizer.
-  autograd::GradientMap::Products products = autograd::GradientMap::Products::form;
+  /// Whether gradients of dense layers are computed, or kept as two factors for the optimizer.
+  autograd::GradientMap::Products products = autograd::GradientMap::Products::compute;
   Communicator* communicator = nullptr;  ///< whose processes share the products of dense layers
 };
 

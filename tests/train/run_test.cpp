@@ -158,10 +158,10 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.training.fine_tune = GENERATE(Config::Training::FineTune::last_block, Config::Training::FineTune::all);
+  config.training.fine_tune = GENERATE(FineTune::last_block, FineTune::all);
   config.training.epochs = 2;
   config.training.validation_categories = 1;
-  const bool all = config.training.fine_tune == Config::Training::FineTune::all;
+  const bool all = config.training.fine_tune == FineTune::all;
   const int threads_before = Parallel::shared().threads();
   std::vector<std::string> expected;
   for (int threads : {1, 2, 8}) {
@@ -219,8 +219,7 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.training.fine_tune = GENERATE(Config::Training::FineTune::none, Config::Training::FineTune::last_block,
-                                       Config::Training::FineTune::all);
+  config.training.fine_tune = GENERATE(FineTune::none, FineTune::last_block, FineTune::all);
   config.training.epochs = 1;
   const auto examples = [&](const std::string& folder) {
     Log log;
@@ -231,7 +230,7 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   };
   const int as_taken = examples("plain");
   CHECK(as_taken > 0);
-  config.training.augmentation = Config::Training::Augmentation::turns;
+  config.training.augmentation = TopViewAugmentation::turns;
   CHECK(examples("plain") == 8 * as_taken);  // and the model of "plain" is not taken for its own
 
   const int threads_before = Parallel::shared().threads();
@@ -249,12 +248,12 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.sv_net.angles = Config::SvNet::Angles::harmonics;
+  config.sv_net.angles = AngleEncoding::harmonics;
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
   const Model as_taken = Stages(config, dataset, temporary.path() / "run", {}).model();
   CHECK(as_taken.orientations == 1);
 
-  config.sv_net.orientations = Config::SvNet::Orientations::all;
+  config.sv_net.orientations = Orientations::all;
   Stages run(config, dataset, temporary.path() / "run", {});
   const Model model = run.model();
   CHECK(model.orientations == 8);
@@ -373,7 +372,7 @@ TEST_CASE("a dry run leaves nothing behind") {
   Log log;
   dry_run(config, read_view_dataset(config.dataset.root), log.messages);
   CHECK(log.has("epoch 1/1"));
-  config.training.fine_tune = Config::Training::FineTune::all;
+  config.training.fine_tune = FineTune::all;
   Log tuned;
   dry_run(config, read_view_dataset(config.dataset.root), tuned.messages);
   CHECK(tuned.has("epoch 1/1"));
@@ -399,11 +398,11 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   config.sv_net.layer = "block9";
   CHECK_THROWS_WITH(run(), Catch::Contains("no layer 'block9'"));
   config.sv_net.layer = "block4_act";
-  config.training.fine_tune = Config::Training::FineTune::last_block;
+  config.training.fine_tune = FineTune::last_block;
   CHECK_THROWS_WITH(run(),
                     "training.fine_tune: last_block, but sv_net.layer 'block4_act' is not above the input of the last "
                     "block of tiny_xception, which is the output of 'block4_act'");
-  config.training.fine_tune = Config::Training::FineTune::none;
+  config.training.fine_tune = FineTune::none;
   config.sv_net.layer = "";
   config.evaluation.pipelines = {"foo_ward"};
   CHECK_THROWS_WITH(run(), Catch::Contains("there is no backbone 'foo'"));

@@ -7,7 +7,7 @@
 namespace svnet {
 
 // A graph as JSON: a list of nodes {"name", "kind", "inputs": [names], attributes…}; the kinds are Keras' class names,
-// the attributes those of nn/graph/layer_fields.h.
+// the attributes those that the layers visit (nn/layers).
 
 nlohmann::json graph_to_json(const Graph& graph);
 

@@ -1,7 +1,6 @@
 #include "train/stages/contact_sheet.h"
 
 #include "io/images/image_file.h"
-#include "train/stages/fingerprints.h"
 #include "train/stages/held_out_scores.h"
 #include "train/view_sheet.h"
 
@@ -11,7 +10,7 @@ std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const E
                                                          std::uint64_t problems) {
   if (!run.has_held_out_problems()) return {};
   const SemanticScores scores = held_out_scores(run, inputs.features, problems);
-  const auto& best = training_target(run.config) == Target::individual ? scores.individual : scores.global;
+  const auto& best = run.config.sv_net.target == Target::individual ? scores.individual : scores.global;
   const Selector selectors[] = {{"top", top_views(run.dataset)},
                                 {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};

@@ -5,9 +5,7 @@
 
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
-#include "train/clustering_choice.h"
 #include "train/random_problems.h"
-#include "train/stages/fingerprints.h"
 #include "train/stages/held_out_scores.h"
 
 namespace svnet {
@@ -21,7 +19,7 @@ class PipelineDistances {
   EvaluationPipeline pipeline(const std::string& name) {
     const PipelineName parsed = parse_pipeline(name, "evaluation.pipelines");
     const auto& [distances, dimension] = distances_of(parsed.backbone);
-    return {name, &distances, clustering_options(parsed.clustering, dimension)};
+    return {name, &distances, {.method = parsed.clustering, .dimension = dimension}};
   }
 
  private:
@@ -57,7 +55,7 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
   PipelineDistances distances(run, inputs.features);
   std::vector<EvaluationPipeline> pipelines;
   for (const auto& name : run.config.evaluation.pipelines) pipelines.push_back(distances.pipeline(name));
-  const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = nmi_average(run.config)};
+  const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
   const auto table = [&](const std::vector<bool>& excluded, const std::vector<Selector>& selectors,
                          const std::string& task) {
     return evaluate(run.dataset, clustering_problems(run.dataset, excluded, run.config.scores), pipelines, selectors,

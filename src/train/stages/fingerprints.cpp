@@ -5,15 +5,13 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "models/orientation.h"
-#include "train/clustering_choice.h"
 
 namespace svnet {
 
 std::string sampler_text(const Config::Scores& s) {
   const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
   return joined("uniform; categories ", s.min_categories, " to ", bound(s.max_categories), ", objects ", s.min_objects,
-                " to ", bound(s.max_objects), ", one pose, one view; singletons ",
-                s.singletons == Config::Scores::Singletons::zero ? "zero" : "skip");
+                " to ", bound(s.max_objects), ", one pose, one view; singletons ", name_of(s.singletons));
 }
 
 std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config) {
@@ -22,7 +20,7 @@ std::string scores_fingerprint(const std::string& features_fingerprint, const Co
   hash.update_field("scores 1")
       .update_field(features_fingerprint)
       .update_field(joined_with("\n", config.dataset.held_out));
-  hash.update_field(sampler_text(s)).update_field(clustering_name(s.clustering));
+  hash.update_field(sampler_text(s)).update_field(name_of(s.clustering));
   hash.update_field(joined(config.seed, " ", s.problems, " ", s.min_samples, " ", std::hexfloat, s.target_error));
   return hash.hex();
 }
@@ -37,10 +35,9 @@ std::string model_fingerprint(const std::string& features, const std::string& sc
                            " ", t.epochs, " ", t.batch_size, " ", static_cast<int>(t.optimizer), " ",
                            static_cast<int>(t.schedule), " ", t.step_epochs, " ", t.validation_categories, " ",
                            std::hexfloat, n.dropout, " ", t.learning_rate, " ", t.momentum, " ", t.step_factor));
-  if (t.fine_tune != Config::Training::FineTune::none)
-    hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
-  if (n.orientations != Config::SvNet::Orientations::as_taken) hash.update_field("all orientations");
-  if (t.augmentation != Config::Training::Augmentation::none)
+  if (t.fine_tune != FineTune::none) hash.update_field(joined("fine_tune ", static_cast<int>(t.fine_tune)));
+  if (n.orientations != Orientations::as_taken) hash.update_field("all orientations");
+  if (t.augmentation != TopViewAugmentation::none)
     hash.update_field(joined("augmentation ", static_cast<int>(t.augmentation)));
   return hash.hex();
 }
@@ -51,60 +48,35 @@ ScoreOptions score_options(const Config& config, Index dimension) {
           .min_samples = static_cast<std::uint64_t>(s.min_samples),
           .target_error = s.target_error,
           .seed = static_cast<std::uint64_t>(config.seed),
-          .singletons = s.singletons == Config::Scores::Singletons::zero ? Singletons::zero : Singletons::skip,
-          .clustering = clustering_options(s.clustering, dimension)};
-}
-
-AngleEncoding angle_encoding(const Config& config) {
-  switch (config.sv_net.angles) {
-    case Config::SvNet::Angles::radians:
-      return AngleEncoding::radians;
-    case Config::SvNet::Angles::sphere:
-      return AngleEncoding::sphere;
-    case Config::SvNet::Angles::harmonics:
-      break;
-  }
-  return AngleEncoding::harmonics;
-}
-
-Target training_target(const Config& config) {
-  return config.sv_net.target == Config::SvNet::Target::individual ? Target::individual : Target::global;
+          .singletons = s.singletons,
+          .clustering = {.method = s.clustering, .dimension = dimension}};
 }
 
 int scored_orientations(const Config& config) {
-  return config.sv_net.orientations == Config::SvNet::Orientations::all ? kOrientations : 1;
+  return config.sv_net.orientations == Orientations::all ? kOrientations : 1;
 }
 
 int trained_orientations(const Config& config) {
-  return config.training.augmentation == Config::Training::Augmentation::turns ? kOrientations : 1;
+  return config.training.augmentation == TopViewAugmentation::turns ? kOrientations : 1;
 }
 
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
   const auto& t = config.training;
   return {.epochs = t.epochs,
           .batch_size = t.batch_size,
-          .optimizer = t.optimizer == Config::Training::Optimizer::adam ? TrainerOptions::Optimizer::adam
-                                                                        : TrainerOptions::Optimizer::sgd,
-          .momentum = t.momentum,
+          .optimizer = {.kind = t.optimizer, .momentum = t.momentum},
           .schedule = {},
           .seed = static_cast<std::uint64_t>(config.seed),
           .input_fingerprint = fingerprint};
 }
 
 Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch) {
-  using Kind = Config::Training::Schedule;
   const auto& t = config.training;
-  return {.kind = t.schedule == Kind::constant ? Schedule::Kind::constant
-                  : t.schedule == Kind::step   ? Schedule::Kind::step
-                                               : Schedule::Kind::cosine,
+  return {.kind = t.schedule,
           .base = t.learning_rate,
           .period = t.step_epochs * steps_per_epoch,
           .factor = t.step_factor,
           .total = t.epochs * steps_per_epoch};
-}
-
-NmiAverage nmi_average(const Config& config) {
-  return config.evaluation.nmi == Config::Evaluation::Nmi::arithmetic ? NmiAverage::arithmetic : NmiAverage::geometric;
 }
 
 }  // namespace svnet

@@ -1,12 +1,9 @@
 #pragma once
 #include <string>
 
-#include "models/sv_net.h"
-#include "semantics/cluster_metrics.h"
 #include "semantics/semantic_scores.h"
 #include "train/config/config.h"
 #include "train/trainer.h"
-#include "train/training_set.h"
 
 namespace svnet {
 
@@ -25,8 +22,6 @@ std::string sampler_text(const Config::Scores& config);
 /// What `config.scores` and `config.seed` say of scores of features of that dimension.
 ScoreOptions score_options(const Config& config, Index dimension);
 
-AngleEncoding angle_encoding(const Config& config);
-Target training_target(const Config& config);
 /// Orientations of the top image whose mean a score is.
 int scored_orientations(const Config& config);
 /// Orientations of each top image that SV-net is trained on.
@@ -34,6 +29,5 @@ int trained_orientations(const Config& config);
 /// The schedule stays empty; see learning_rate_schedule.
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint);
 Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch);
-NmiAverage nmi_average(const Config& config);
 
 }  // namespace svnet

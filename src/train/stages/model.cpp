@@ -28,7 +28,7 @@ std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
 
 /// The model before training: its head has no parameters yet.
 Model untrained_model(const Config& config, const Backbone& backbone, const std::string& fingerprint) {
-  const AngleEncoding angles = angle_encoding(config);
+  const AngleEncoding angles = config.sv_net.angles;
   return {.backbone = backbone.kind().name,
           .backbone_output = backbone.output_name(),
           .preprocessing = backbone.preprocessing(),
@@ -123,7 +123,7 @@ Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, 
   const std::vector<bool> validating = validation_categories(run.held_out, config);
   std::vector<bool> training = run.training_categories();
   for (std::size_t c = 0; c < training.size(); ++c) training[c] = training[c] && !validating[c];
-  const Target target = training_target(config);
+  const Target target = config.sv_net.target;
   const NodeId output = backbone.graph().find(backbone.output_name());
   const NodeId from = trained_from(config.training.fine_tune, backbone.kind(), backbone.graph(), output);
   const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, from);

@@ -12,7 +12,7 @@ namespace {
 /// What the head takes, for every view. The features of the first stage serve if the backbone was not trained.
 std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features, const Model& model) {
   const Config& config = run.config;
-  if (config.training.fine_tune == Config::Training::FineTune::none && model.orientations == 1)
+  if (config.training.fine_tune == FineTune::none && model.orientations == 1)
     return std::make_unique<FeatureInputs>(run.dataset, features.features(config.sv_net.backbone, config.sv_net.layer));
   return std::make_unique<PictureInputs>(run.dataset, model.preprocessing,
                                          std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,

@@ -96,7 +96,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
                              .seed = options.seed,
                              .sampler = sampler_text(drawn),
-                             .clustering = clustering_name(drawn.clustering),
+                             .clustering = name_of(drawn.clustering),
                              .metric = "fm",
                              .input_fingerprint = fingerprint},
                 std::move(made.individual),

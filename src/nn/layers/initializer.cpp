@@ -1,4 +1,4 @@
-#include "nn/graph/initializer.h"
+#include "nn/layers/initializer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,9 +26,13 @@ Law law(Initializer initializer) {
       return {2, false, true};
     case Initializer::lecun_uniform:
       return {1, false, false};
-    default:
+    case Initializer::lecun_normal:
       return {1, false, true};
+    case Initializer::zeros:
+    case Initializer::ones:
+      break;  // constant
   }
+  return {0, false, false};
 }
 
 double fan(const Shape& shape, bool average) {
