@@ -114,7 +114,7 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
   Json names = Json::array();
   for (std::size_t view = 0; view < found->views.size(); ++view) {
     const TakenView& taken = found->views[view];
-    const Pose& from = found->posed.views[view];
+    const CameraPose& from = found->posed.views[view];
     const std::string name =
         std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
     write_png(folder / (name + ".png"), taken.picture.rgb);

@@ -15,8 +15,9 @@ struct Model {
   Graph backbone_graph;
   Parameters backbone_parameters;
   AngleEncoding angles = AngleEncoding::radians;
-  // Of the top image, whose mean a score is: 1, as taken, or kOrientations, for which pictures must be square.
-  int orientations = 1;
+  /// A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as taken; kSymmetries: all, and
+  /// the preprocessed image must be square.
+  int symmetries = 1;
   Graph head;  // as sv_net() makes it
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the numbers depend on

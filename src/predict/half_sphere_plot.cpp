@@ -25,7 +25,7 @@ Colour scale_colour(double height) {
 
 }  // namespace
 
-Image half_sphere_plot(std::span<const Pose> poses, std::span<const float> scores) {
+Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float> scores) {
   check(poses.size() == scores.size(), "[plot] there are ", poses.size(), " poses and ", scores.size(), " scores");
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string problem = pose_problem(poses[i]);

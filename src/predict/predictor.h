@@ -7,7 +7,7 @@
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
 #include "predict/score_head.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 namespace svnet {
 
@@ -19,7 +19,7 @@ class Predictor {
   explicit Predictor(const std::filesystem::path& model_file);
   explicit Predictor(const Model& model);
 
-  /// The number D of features: of all orientations of the top image that the model looks at.
+  /// The number D of features: over all symmetries of the top image that the model sees.
   Index feature_count() const { return head_.feature_count(); }
 
   /// Features (1, D) of a top image of any size. Throws Error for an image without pixels, or whose rgb has another
@@ -27,11 +27,11 @@ class Predictor {
   Tensor embed(const Image& top) const;
 
   /// As ScoreHead::scores, of features that embed returned.
-  std::vector<float> scores(const Tensor& features, std::span<const Pose> poses) const;
+  std::vector<float> scores(const Tensor& features, std::span<const CameraPose> poses) const;
 
  private:
   Preprocessing preprocessing_;
-  int orientations_;
+  int symmetries_;
   Inference backbone_;
   ScoreHead head_;
 };

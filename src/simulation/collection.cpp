@@ -46,7 +46,7 @@ PosedObject pose_object(const Mesh& mesh, Index pose, std::uint64_t seed, std::u
 Intrinsics overview_camera() { return {640, 480, 600, 600, 319.5, 239.5}; }
 
 Eigen::Isometry3d overview_camera_to_world() {
-  return camera_pose({90, 90}, 1, Eigen::Vector3d::Zero(), CameraFrame::optical);
+  return look_at({90, 90}, 1, Eigen::Vector3d::Zero(), CameraFrame::optical);
 }
 
 Intrinsics view_camera(Index size) {
@@ -71,8 +71,8 @@ TakenView take_view(const PosedObject& posed, const Scene& scene, const Localise
                     std::uint64_t seed, std::uint32_t number, std::size_t view) {
   constexpr int kSamples = 4;
   const Intrinsics camera = view_camera(size);
-  const Eigen::Isometry3d from = camera_pose(posed.views[view], viewing_radius_m(camera, object.diagonal_m),
-                                             object.centre_m, CameraFrame::optical);
+  const Eigen::Isometry3d from =
+      look_at(posed.views[view], viewing_radius_m(camera, object.diagonal_m), object.centre_m, CameraFrame::optical);
   const PictureKey key = key_of(seed, number, static_cast<std::uint32_t>(view));
   TakenView taken{scene.shoot(camera, from, key, kSamples), {}};
   taken.picture = sensed(taken.shot, key);

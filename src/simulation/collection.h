@@ -15,7 +15,7 @@ struct PosedObject {
   const Mesh* mesh;
   Eigen::Isometry3d object_to_world;
   Setting setting;
-  std::vector<Pose> views;
+  std::vector<CameraPose> views;
 };
 
 /// Pose number `pose` of an object: each of its resting poses in turn, turned and moved at random. `number` < 2^16

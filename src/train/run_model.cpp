@@ -7,7 +7,6 @@
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/models/checkpoint.h"
-#include "models/orientation.h"
 #include "models/trained_graph.h"
 #include "predict/score_head.h"
 #include "train/epoch_order.h"
@@ -16,6 +15,7 @@
 #include "train/scores_stage.h"
 #include "train/trained_from.h"
 #include "train/trainer.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -95,7 +95,7 @@ Model Run::model(Resume resume) {
               .backbone_graph = source.backbone.graph(),
               .backbone_parameters = source.backbone.parameters(),
               .angles = angles,
-              .orientations = config_.sv_net.orientations == Orientations::all ? kOrientations : 1,
+              .symmetries = config_.sv_net.orientations == Orientations::all ? kSymmetries : 1,
               .head = sv_net({.features = source.backbone.dimension(),
                               .width = config_.sv_net.width,
                               .dropout = config_.sv_net.dropout,
@@ -134,7 +134,7 @@ Model Run::trained_model() {
 
 std::unique_ptr<ViewInputs> Run::training_inputs(const Backbone& backbone, NodeId from) {
   const Graph& graph = backbone.graph();
-  const int orientations = config_.training.augmentation == TopViewAugmentation::turns ? kOrientations : 1;
+  const int orientations = config_.training.augmentation == TopViewAugmentation::turns ? kSymmetries : 1;
   const bool all_frozen = graph.node(from).name == backbone.output_name();
   if (all_frozen && orientations == 1)
     return std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
@@ -190,14 +190,14 @@ const std::vector<double>& Run::predictions() {
 
 std::vector<double> Run::predicted_scores(const Model& model) {
   std::unique_ptr<ViewInputs> inputs;
-  if (config_.training.fine_tune == FineTune::none && model.orientations == 1)
+  if (config_.training.fine_tune == FineTune::none && model.symmetries == 1)
     inputs = std::make_unique<FeatureInputs>(dataset_, features(config_.sv_net.backbone, config_.sv_net.layer));
   else
     inputs =
         std::make_unique<PictureInputs>(dataset_, model.preprocessing,
                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
                                                                     model.backbone_graph.find(model.backbone_output)),
-                                        PictureInputs::Options{.orientations = model.orientations, .flat = true});
+                                        PictureInputs::Options{.orientations = model.symmetries, .flat = true});
   const ScoreHead head(model);
   const Index dimension = head.feature_count();
   const auto poses = std::span(dataset_.poses);
@@ -207,13 +207,13 @@ std::vector<double> Run::predicted_scores(const Model& model) {
     const auto part = poses.subspan(first, std::min(kPoses, poses.size() - first));
     std::vector<Index> top_views;
     for (const auto& pose : part)
-      for (int orientation = 0; orientation < model.orientations; ++orientation)
-        top_views.push_back(pose.top_view * model.orientations + orientation);
+      for (int orientation = 0; orientation < model.symmetries; ++orientation)
+        top_views.push_back(pose.top_view * model.symmetries + orientation);
     const Tensor features = inputs->batch(top_views);
     for (std::size_t p = 0; p < part.size(); ++p) {
       Tensor top = Tensor::empty({1, dimension});
       std::copy_n(features.data<float>() + static_cast<Index>(p) * dimension, dimension, top.data<float>());
-      std::vector<Pose> candidates;
+      std::vector<CameraPose> candidates;
       for (const View& view :
            std::span(dataset_.views)
                .subspan(static_cast<std::size_t>(part[p].first_view), static_cast<std::size_t>(part[p].view_count)))

@@ -146,7 +146,7 @@ TEST_CASE("a scene sees a block where the camera's equations put it") {
   RandomStream random(1, Stream::collection);
   const Scene scene(&mesh, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.02)), random_setting(random));
   const Intrinsics camera{101, 81, 100, 100, 50, 40};
-  const auto from = camera_pose({90, 90}, 1, {0, 0, 0}, CameraFrame::optical);
+  const auto from = look_at({90, 90}, 1, {0, 0, 0}, CameraFrame::optical);
   const Shot shot = scene.shoot(camera, from, {}, 1);
   // The top face is 0.96 m away: 100 mm are 10.4 pixels, 60 mm are 6.25.
   for (Index y = 0; y < 81; ++y)
@@ -221,7 +221,7 @@ TEST_CASE("nothing of a localised object is cut off in its views, and about one 
   for (std::uint32_t number = 0; number < 300; ++number) {
     const auto posed = pose_object(mesh, 0, 1, number);
     CHECK(posed.views.size() >= 17);
-    CHECK(posed.views.back() == Pose{90, 90});
+    CHECK(posed.views.back() == CameraPose{90, 90});
     views += static_cast<Index>(posed.views.size()), ++poses;
   }
   const double mean = static_cast<double>(views) / static_cast<double>(poses);
