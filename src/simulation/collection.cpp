@@ -54,29 +54,29 @@ Intrinsics view_camera(Index size) {
   return {size, size, 1.25 * side, 1.25 * side, (side - 1) / 2, (side - 1) / 2};
 }
 
-Overview take_overview(const PosedObject& posed, std::uint64_t seed, std::uint32_t number) {
+Overview capture_overview(const PosedObject& posed, std::uint64_t seed, std::uint32_t number) {
   constexpr int kSamples = 2;
   RandomStream random(seed, Stream::collection,
                       std::uint64_t{key_of(seed, number, kOverview).number} << 32 | 0xffffffff);
   const auto brighter = static_cast<float>(0.97 + 0.06 * random.uniform());
-  const auto take = [&](const Mesh* mesh, std::uint32_t picture, float exposure) {
+  const auto picture = [&](const Mesh* mesh, std::uint32_t index, float exposure) {
     const Scene scene(mesh, posed.object_to_world, posed.setting);
-    const PictureKey key = key_of(seed, number, picture);
-    return sensed(scene.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
+    const PictureKey key = key_of(seed, number, index);
+    return sensor_picture(scene.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
   };
-  return {take(nullptr, kBackground, 1), take(posed.mesh, kOverview, brighter)};
+  return {picture(nullptr, kBackground, 1), picture(posed.mesh, kOverview, brighter)};
 }
 
-TakenView take_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,
-                    std::uint64_t seed, std::uint32_t number, std::size_t view) {
+CapturedView capture_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,
+                          std::uint64_t seed, std::uint32_t number, std::size_t view) {
   constexpr int kSamples = 4;
   const Intrinsics camera = view_camera(size);
   const Eigen::Isometry3d from =
       look_at(posed.views[view], viewing_radius_m(camera, object.diagonal_m), object.centre_m, CameraFrame::optical);
   const PictureKey key = key_of(seed, number, static_cast<std::uint32_t>(view));
-  TakenView taken{scene.shoot(camera, from, key, kSamples), {}};
-  taken.picture = sensed(taken.shot, key);
-  return taken;
+  CapturedView captured{scene.shoot(camera, from, key, kSamples), {}};
+  captured.picture = sensor_picture(captured.shot, key);
+  return captured;
 }
 
 }  // namespace svnet

@@ -34,14 +34,14 @@ Intrinsics view_camera(Index size);
 struct Overview {
   RgbdPicture background, current;
 };
-Overview take_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
+Overview capture_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
 
 /// Number `view` of object.views, from where the localised object asks for.
-struct TakenView {
+struct CapturedView {
   Shot shot;
   RgbdPicture picture;
 };
-TakenView take_view(const PosedObject&, const Scene&, const LocalisedObject&, Index size, std::uint64_t seed,
-                    std::uint32_t number, std::size_t view);
+CapturedView capture_view(const PosedObject&, const Scene&, const LocalisedObject&, Index size, std::uint64_t seed,
+                          std::uint32_t number, std::size_t view);
 
 }  // namespace svnet

@@ -52,7 +52,7 @@ bool on_silhouette(const DepthImage& depth, Index y, Index x) {
 
 }  // namespace
 
-RgbdPicture sensed(const Shot& shot, const PictureKey& key, float exposure) {
+RgbdPicture sensor_picture(const Shot& shot, const PictureKey& key, float exposure) {
   constexpr float kDepthNoise = 0.0014f, kHoleShare = 0.6f;
   constexpr float kShotNoise = 0.0003f, kReadNoise = 0.0016f;  // variance per light, and σ in the dark
   RgbdPicture picture{{shot.height, shot.width, std::vector<std::uint8_t>(shot.radiance.size() * 3)},
