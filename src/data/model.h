@@ -7,10 +7,10 @@
 
 namespace svnet {
 
-/// SV-net with the backbone that feeds it: from a top image and camera poses to scores.
+/// A trained SV-net with its backbone: it scores camera poses for a top image.
 struct Model {
   std::string backbone;         // "mobilenet"
-  std::string backbone_output;  // the layer whose flattened output feeds the head
+  std::string backbone_output;  // the layer whose flattened output is the head's input
   Preprocessing preprocessing;  // of the top image
   Graph backbone_graph;
   Parameters backbone_parameters;
@@ -20,7 +20,7 @@ struct Model {
   int symmetries = 1;
   Graph head;  // as sv_net() makes it
   Parameters head_parameters;
-  std::string input_fingerprint;  // of everything that the numbers depend on
+  std::string input_fingerprint;  // of everything that the parameters depend on
 };
 
 }  // namespace svnet

@@ -9,7 +9,8 @@
 namespace svnet {
 namespace {
 
-/// Poses that the head sees at once: enough to read its weights seldom, few enough that repeated features stay small.
+/// Poses per run of the head: many, so that its weights are read rarely, but few enough that the repeated features stay
+/// small.
 constexpr Index kPosesAtOnce = 32;
 
 }  // namespace
@@ -38,7 +39,7 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
       Tensor repeated = Tensor::empty({size, dimension}), encoded = Tensor::empty({size, angles});
       for (Index i = 0; i < size; ++i) {
         const CameraPose& pose = poses[static_cast<std::size_t>(begin + i)];
-        // Within one turn: a model that is fed plain angles has seen no other.
+        // Within [0, 360): a model with plain angles was trained on these only.
         const double theta_deg = symmetric_theta_deg(symmetry, pose.theta_deg);
         std::copy_n(features.data<float>() + symmetry * dimension, dimension, repeated.data<float>() + i * dimension);
         encode_angles(angles_, theta_deg, pose.phi_deg, encoded.data<float>() + i * angles);

@@ -11,7 +11,7 @@
 namespace svnet {
 namespace {
 
-// Pictures of one pose: 2^16 per object and pose. The views come first.
+// Indices of the pictures of one pose, 0 … 2^16 - 1; views have their own index. kPlan keys the numbers of pose_object.
 constexpr std::uint32_t kOverview = 0xfffd, kBackground = 0xfffe, kPlan = 0xffff;
 
 PictureKey key_of(std::uint64_t seed, std::uint32_t number, std::uint32_t picture) {
@@ -35,7 +35,7 @@ PosedObject pose_object(const Mesh& mesh, Index pose, std::uint64_t seed, std::u
   posed.object_to_world.translation() =
       Eigen::Vector3d(x, y, 0) - Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
 
-  // A robot misses none of the views, or one or two, rarely up to five; never the top view.
+  // A robot cannot reach some views: mostly 0 to 2, rarely up to 5; the top view is never missing.
   posed.views = paper_grid();
   const double u = random.uniform();
   for (auto missing = static_cast<int>(6 * u * u * u); missing > 0; --missing)

@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Column `index` of a line of values with commas between them; empty where there are fewer.
+/// Column `index` of a line of comma-separated values; empty if there are fewer columns.
 std::string_view column(std::string_view line, int index) {
   for (; index > 0; --index) line.remove_prefix(std::min(line.find(','), line.size() - 1) + 1);
   return trimmed(line.substr(0, line.find(',')));
