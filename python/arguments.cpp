@@ -134,13 +134,13 @@ Image image(const char* function, const py::object& given) {
   return {pixels.shape(0), pixels.shape(1), {pixels.data(), pixels.data() + pixels.size()}};
 }
 
-std::vector<Pose> camera_poses(const char* function, const py::object& given) {
+std::vector<CameraPose> camera_poses(const char* function, const py::object& given) {
   const py::array array = any_array(function, "angles_deg", given, "numbers (M, 2)");
   check_numbers(function, "angles_deg", array);
   check(array.ndim() == 2 && array.shape(1) == 2 && array.size() > 0, "[", function, "] angles_deg has shape ",
         shape_text(array), "; expects (M, 2), theta and phi of each pose in degrees, and at least one");
   const Array<double> angles(array);
-  std::vector<Pose> poses;
+  std::vector<CameraPose> poses;
   poses.reserve(static_cast<std::size_t>(angles.shape(0)));
   for (py::ssize_t i = 0; i < angles.shape(0); ++i) {
     poses.push_back({angles.at(i, 0), angles.at(i, 1)});

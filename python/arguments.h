@@ -14,7 +14,7 @@
 #include "base/text.h"
 #include "image/image.h"
 #include "semantics/distances.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 // From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.
 // All of these need the GIL.
@@ -58,7 +58,7 @@ Image image(const char* function, const pybind11::object& given);
 
 /// Poses (M, 2), theta and phi in degrees, from any array-like of integers or floats; at least one, all in range.
 /// Throws Error for anything else, with the number of the pose.
-std::vector<Pose> camera_poses(const char* function, const pybind11::object& given);
+std::vector<CameraPose> camera_poses(const char* function, const pybind11::object& given);
 
 /// A Python or NumPy integer or float. Throws Error for anything else.
 double number(const char* function, const char* argument, const pybind11::object& given);
