@@ -60,9 +60,9 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
   } catch (const CLI::ParseError& answer) {
     return parsed(answer, communicator);
   }
-  Console console(
-      communicator.is_root() ? (quiet_ ? Console::Voice::quiet : Console::Voice::full) : Console::Voice::mute,
-      stderr_is_terminal());
+  Console console(communicator.is_root() ? (quiet_ ? Console::Verbosity::quiet : Console::Verbosity::normal)
+                                         : Console::Verbosity::errors_only,
+                  stderr_is_terminal());
   try {
     remember_interrupts();
     cap_from_environment();
@@ -87,7 +87,7 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
 }
 
 int Command::parsed(const CLI::ParseError& answer, const Communicator& communicator) {
-  Console console(Console::Voice::full, stderr_is_terminal());
+  Console console(Console::Verbosity::normal, stderr_is_terminal());
   if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, communicator);
   if (!communicator.is_root()) return 0;
   app_.exit(answer, std::cout, std::cerr);

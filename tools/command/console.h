@@ -1,11 +1,11 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "base/progress.h"
+#include "command/log_file.h"
 #include "command/progress_text.h"
 
 namespace svnet {
@@ -16,9 +16,9 @@ namespace svnet {
 /// at a time.
 class Console {
  public:
-  enum class Voice { full, quiet, mute };
+  enum class Verbosity { normal, quiet, errors_only };
   /// `terminal`: stderr is a terminal that understands ANSI.
-  Console(Voice voice, bool terminal);
+  Console(Verbosity verbosity, bool terminal);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
@@ -40,18 +40,17 @@ class Console {
 
  private:
   using Clock = std::chrono::steady_clock;
-  class LogFile;
 
   void progress(TaskState state);
   void print(std::string_view text);
   void erase_bar();
 
-  Voice voice_;
+  Verbosity verbosity_;
   bool terminal_;
   bool bar_drawn_ = false;
   std::optional<TaskState> task_;  ///< in progress
   Clock::time_point last_plain_;
-  std::unique_ptr<LogFile> log_file_;
+  std::optional<LogFile> log_file_;
   Messages messages_;
 };
 
