@@ -48,7 +48,7 @@ HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
 /// How many vectors the slots take: kVectors where it is known when the code is made, 0 where it is not.
 template <int kVectors>
 HWY_INLINE Index vectors(const AgglomerationState& s) {
-  const auto lanes = static_cast<Index>(hn::Lanes(Floats()));
+  const Index lanes = hn::Lanes(Floats());
   return kVectors > 0 ? kVectors : (s.n + lanes - 1) / lanes;
 }
 
@@ -57,7 +57,7 @@ HWY_INLINE Index vectors(const AgglomerationState& s) {
 template <int kVectors>
 HWY_INLINE Index first_equal(const AgglomerationState& s, const float* values, Index after, FloatVector wanted) {
   const Floats d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d)), count = vectors<kVectors>(s), of_word = 64 / lanes;
+  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s), of_word = 64 / lanes;
   Index found = s.n;
   for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
     std::uint64_t bits = 0;
@@ -106,8 +106,8 @@ template <Linkage linkage>
 HWY_INLINE void start(const AgglomerationState& s) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
-  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = static_cast<std::int32_t>(j);
+  const Index lanes = hn::Lanes(d);
+  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = j;
   for (Index i = 0; i < s.stride; i += lanes) {
     const auto column = positions_from(i);
     auto value = hn::Set(d, kInfinity);
@@ -162,7 +162,7 @@ struct Smallest {
 template <int kVectors>
 HWY_INLINE Smallest smallest_bound(const AgglomerationState& s) {
   const Floats d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   auto value = hn::Load(d, s.nearest_value);
   for (Index v = 1; v < vectors<kVectors>(s); ++v) value = hn::Min(value, hn::Load(d, s.nearest_value + v * lanes));
   value = hn::MinOfLanes(d, value);
@@ -191,7 +191,7 @@ template <int kVectors>
 HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   const auto infinity = hn::Set(d, kInfinity);
   set(s.nearest_value, a, infinity);
   const Smallest other = smallest_bound<kVectors>(s);
@@ -213,13 +213,13 @@ template <Linkage linkage, int kVectors>
 HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   float* HWY_RESTRICT row_a = s.dissimilarity + a * s.stride;
   const float* HWY_RESTRICT row_b = s.dissimilarity + b * s.stride;
   const auto of_a = hn::Set(d, s.size[a]), of_b = hn::Set(d, s.size[b]), both = hn::Add(of_a, of_b);
   const auto between = hn::Set(d, row_a[b]), infinity = hn::Set(d, kInfinity);
   const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
-  s.merged_into[b] = static_cast<std::int32_t>(a);
+  s.merged_into[b] = a;
   set(s.gone, b, infinity);
   set(s.nearest_value, b, infinity);
   set(s.nearest_value, a, infinity);  // until it is known again
@@ -303,7 +303,7 @@ void agglomerate_by(Index k, const AgglomerationState& s) {
   constexpr int kMostUnrolled = hn::MaxLanes(Floats()) >= 8 ? 8 : 0;
   constexpr auto kByVectors = agglomerations<linkage>(std::make_integer_sequence<int, kMostUnrolled + 1>());
   const Index count = vectors<0>(s);
-  kByVectors[static_cast<std::size_t>(count <= kMostUnrolled ? count : 0)](k, s);
+  kByVectors[count <= kMostUnrolled ? count : 0](k, s);
 }
 
 void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {

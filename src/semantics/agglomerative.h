@@ -37,7 +37,7 @@ class Agglomerative {
   void cluster(const LowerTriangle& distances, Index k, std::span<std::int32_t> labels);
 
  private:
-  void check_sizes(Index points, Index k, std::size_t labels) const;
+  void check_sizes(Index points, Index k, Index labels) const;
   void merge_to(Index k, const float* triangle, std::span<std::int32_t> labels);
 
   Linkage linkage_;

@@ -46,8 +46,8 @@ class ClusteringProblems {
   /// A uniform view of each pose.
   void draw_views(RandomStream& random, ClusteringProblem& problem) const;
 
-  Index views() const { return static_cast<Index>(pose_of_view_.size()); }
-  Index poses() const { return static_cast<Index>(pose_.size()); }
+  Index views() const { return pose_of_view_.size(); }
+  Index poses() const { return pose_.size(); }
   Index max_items() const { return max_items_; }            ///< of any problem
   Index max_categories() const { return max_categories_; }  ///< of any problem
 
@@ -55,7 +55,7 @@ class ClusteringProblems {
   std::span<const std::int32_t> pose_of_view() const { return pose_of_view_; }
   /// Rows in ascending order.
   std::span<const std::int32_t> views_of_pose(Index pose) const {
-    return {views_.data() + pose_[pose].first, static_cast<std::size_t>(pose_[pose].count)};
+    return std::span(views_.data() + pose_[pose].first, pose_[pose].count);
   }
 
   /// Views sorted by category, object, pose and row: the place of a view, the view at a place, its category's number in

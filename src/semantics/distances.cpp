@@ -34,7 +34,7 @@ std::vector<double> column_means(const T* features, Index n, Index dimension, Pa
   parallel.for_chunks(dimension, 64, [&](Index begin, Index end, int) {
     for (Index i = 0; i < n; ++i)
       for (Index d = begin; d < end; ++d) mean[d] += features[i * dimension + d];
-    for (Index d = begin; d < end; ++d) mean[d] /= static_cast<double>(n);
+    for (Index d = begin; d < end; ++d) mean[d] /= n;
   });
   return mean;
 }
@@ -72,8 +72,7 @@ struct CentredFeatures {
 };
 
 struct TileScratch {
-  AlignedArray<double> left{static_cast<std::size_t>(kTile * kDepth)}, right{static_cast<std::size_t>(kTile * kDepth)},
-      products{static_cast<std::size_t>(kTile * kTile)};
+  AlignedArray<double> left{kTile * kDepth}, right{kTile * kDepth}, products{kTile * kTile};
 };
 
 template <class T>
@@ -116,9 +115,7 @@ bool all_rows_equal(const T* features, Index n, Index dimension) {
 }  // namespace
 
 DistanceMatrix::DistanceMatrix(Index n)
-    : size_(n),
-      stride_((n + 15) / 16 * 16),
-      values_((check(n >= 0, "[distances] ", n, " rows"), static_cast<std::size_t>(n * stride_))) {}
+    : size_(n), stride_((n + 15) / 16 * 16), values_((check(n >= 0, "[distances] ", n, " rows"), n * stride_)) {}
 
 template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
@@ -147,8 +144,8 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
     for (Index j = i; j < n; j += kTile) tiles.push_back({i, j});
   std::vector<TileScratch> scratch(parallel.threads());
   const Share share = share_of(communicator, 0, tiles.size());
-  parallel.for_chunks(static_cast<Index>(share.last - share.first), 1, [&](Index begin, Index, int worker) {
-    const Tile& tile = tiles[share.first + static_cast<std::uint64_t>(begin)];
+  parallel.for_chunks(share.last - share.first, 1, [&](Index begin, Index, int worker) {
+    const Tile& tile = tiles[share.first + begin];
     distance_tile(x, tile.i, tile.j, scratch[worker], distances);
   });
   communicator.all_reduce(distances.values());

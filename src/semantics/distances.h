@@ -19,7 +19,7 @@ class DistanceMatrix {
   float* row(Index i) { return values_.data() + i * stride_; }
   float operator()(Index i, Index j) const { return row(i)[j]; }
   /// All rows, and what fills them up.
-  std::span<float> values() { return {values_.data(), static_cast<std::size_t>(size_ * stride_)}; }
+  std::span<float> values() { return std::span(values_.data(), size_ * stride_); }
 
  private:
   Index size_, stride_;

@@ -26,7 +26,7 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
       initial_(max_clusters),
       closest_(max_points + 31),
       cumulative_(max_points),
-      cluster_sum_(static_cast<std::size_t>(max_clusters * (max_points + 31))),
+      cluster_sum_(max_clusters * (max_points + 31)),
       cluster_size_(max_clusters),
       half_spread_(max_clusters),
       shift_(max_clusters),
@@ -47,9 +47,9 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
 
 double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                        RandomStream random, std::span<std::int32_t> labels) {
-  check_sizes(static_cast<Index>(rows.size()), k, labels.size());
+  check_sizes(rows.size(), k, labels.size());
   distance_.gather(distances, rows);
-  start(static_cast<Index>(rows.size()), k);
+  start(rows.size(), k);
   return best_run(random, labels);
 }
 
@@ -62,7 +62,7 @@ double KMeans::cluster(const LowerTriangle& distances, Index k, RandomStream ran
 
 double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
                         std::span<const std::int32_t> initial, std::span<std::int32_t> labels) {
-  const auto n = static_cast<Index>(rows.size()), k = static_cast<Index>(initial.size());
+  const Index n = rows.size(), k = initial.size();
   check_sizes(n, k, labels.size());
   for (std::int32_t point : initial)
     check(point >= 0 && point < n, "[kmeans] initial centre ", point, " is not one of the ", n, " points");
@@ -72,12 +72,12 @@ double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::in
   return lloyd(labels);
 }
 
-void KMeans::check_sizes(Index points, Index k, std::size_t labels) const {
+void KMeans::check_sizes(Index points, Index k, Index labels) const {
   check(k >= 1 && k <= points, "[kmeans] cannot make ", k, " clusters of ", points, " points; 1 to ", points,
         " are possible");
   check(points <= max_points_ && k <= max_clusters_, "[kmeans] ", points, " points in ", k,
         " clusters, but memory was made for ", max_points_, " in ", max_clusters_);
-  check(static_cast<Index>(labels) == points, "[kmeans] ", labels, " labels for ", points, " points");
+  check(labels == points, "[kmeans] ", labels, " labels for ", points, " points");
 }
 
 void KMeans::start(Index points, Index k) {
@@ -91,12 +91,12 @@ void KMeans::start(Index points, Index k) {
     std::fill_n(row + n_, (n_ + 15) / 16 * 16 - n_, 0.0f);  // a triangle's paddings hold anything
   }
   // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
-  const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));
-  tolerance_ = options_.tolerance * variance / static_cast<double>(dimension_);
+  const double variance = total / (static_cast<double>(n_) * n_);
+  tolerance_ = options_.tolerance * variance / dimension_;
 }
 
 double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
-  const std::span run_labels(labels_.data(), static_cast<std::size_t>(n_));
+  const std::span run_labels(labels_.data(), n_);
   double best = kInfinity;
   for (Index run = 0; run < options_.n_init; ++run) {
     choose_initial(random);
@@ -116,7 +116,7 @@ double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
 }
 
 void KMeans::choose_initial(RandomStream& random) {
-  initial_[0] = static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n_)));
+  initial_[0] = random.below(n_);
   std::copy_n(distance_.row(initial_[0]), n_, closest_.data());
   std::fill_n(closest_.data() + n_, 31, 0.0f);
   const Index trials = 2 + static_cast<Index>(std::log(static_cast<double>(k_)));
@@ -131,7 +131,7 @@ void KMeans::choose_initial(RandomStream& random) {
       const double potential = kmeans::potential(closest_.data(), distance_.row(candidate), n_);
       if (potential < best) {
         best = potential;
-        initial_[c] = static_cast<std::int32_t>(candidate);
+        initial_[c] = candidate;
       }
     }
     kmeans::take_minimum(distance_.row(initial_[c]), n_, closest_.data());
@@ -201,7 +201,7 @@ void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
     --members_[labels[farthest]];
     if (cluster_size_[c] > 0) shift_[c] += std::max(0.0, to_centre(farthest, c));
     ++members_[c];
-    next_behind_[farthest] = static_cast<std::int32_t>(c);
+    next_behind_[farthest] = c;
   }
 }
 

@@ -44,7 +44,7 @@ class KMeans {
                   std::span<const std::int32_t> initial, std::span<std::int32_t> labels);
 
  private:
-  void check_sizes(Index points, Index k, std::size_t labels) const;
+  void check_sizes(Index points, Index k, Index labels) const;
   void start(Index points, Index k);
   double best_run(RandomStream random, std::span<std::int32_t> labels);
   void choose_initial(RandomStream& random);

@@ -27,9 +27,7 @@ class ProblemBatch {
   std::uint64_t draw(std::uint64_t seed, std::uint64_t first, std::uint64_t wanted);
 
   /// Problem p of those drawn last.
-  std::span<const std::int32_t> rows(Index p) const {
-    return {&rows_[static_cast<std::size_t>(p * max_items_)], static_cast<std::size_t>(item_count_[p])};
-  }
+  std::span<const std::int32_t> rows(Index p) const { return std::span(&rows_[p * max_items_], item_count_[p]); }
   LowerTriangle distances(Index p) const { return {triangles_.data() + offset_[p], item_count_[p]}; }
   Index categories(Index p) const { return category_count_[p]; }
 

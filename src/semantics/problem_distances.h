@@ -13,7 +13,7 @@ namespace svnet {
 class ProblemDistances {
  public:
   explicit ProblemDistances(Index max_points)
-      : max_points_(max_points), values_(static_cast<std::size_t>((max_points + 3) * stride_for(max_points))) {}
+      : max_points_(max_points), values_((max_points + 3) * stride_for(max_points)) {}
 
   Index max_points() const { return max_points_; }
   Index stride() const { return stride_; }
@@ -25,7 +25,7 @@ class ProblemDistances {
 
   /// At most max_points rows. Below the last row there is memory for three more.
   void gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows) {
-    const auto n = static_cast<Index>(rows.size());
+    const Index n = rows.size();
     resize(n);
     for (Index i = 1; i < n; ++i) {
       const float* from = distances.row(rows[i]);

@@ -72,10 +72,10 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
 void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {
   while (first < last) {
     const std::uint64_t count = batch_.draw(scoring_.seed, first, last - first);
-    parallel_.for_chunks(static_cast<Index>(count), kChunk, [&](Index begin, Index end, int worker) {
+    parallel_.for_chunks(count, kChunk, [&](Index begin, Index end, int worker) {
       for (Index p = begin; p < end; ++p) {
         if (p + 1 < end) prefetch(p + 1);
-        solve_one(p, first + static_cast<std::uint64_t>(p), workers_[worker]);
+        solve_one(p, first + p, workers_[worker]);
       }
     });
     first += count;

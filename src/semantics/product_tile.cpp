@@ -19,7 +19,7 @@ PanelWidths panel_widths_here() { return {kLeftWidth, 3 * static_cast<Index>(hn:
 
 void add_products_here(const double* left, const double* right, Index depth, double* products) {
   const Doubles d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d)), width = 3 * lanes;
+  const Index lanes = hn::Lanes(d), width = 3 * lanes;
   for (Index j = 0; j < kProductTile; j += width)
     for (Index i = 0; i < kProductTile; i += kLeftWidth) {
       const double* HWY_RESTRICT a = left + i * depth;

@@ -69,8 +69,8 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
     for (Index v = 0; v < problems.views(); ++v)
       if (const double share = problems.inclusion_probability(v); share > 0) rarest = std::min(rarest, share);
     // The unluckiest of thousands of views is about four standard deviations behind its mean.
-    const double samples = static_cast<double>(options.min_samples), behind = 4 * std::sqrt(samples) + 8;
-    const auto needed = static_cast<std::uint64_t>(std::ceil((samples + behind) / rarest));
+    const double samples = options.min_samples, shortfall = 4 * std::sqrt(samples) + 8;
+    const auto needed = static_cast<std::uint64_t>(std::ceil((samples + shortfall) / rarest));
     const std::uint64_t at_look = needed == 0 ? 0 : next_look(needed - 1);
     expected = expected == 0 ? at_look : std::min(expected, at_look);
   }
@@ -82,18 +82,18 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
                      Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& watch) {
   check_rules(options);
-  check(static_cast<Index>(sums.views.size()) == problems.views(), "[scores] the sums so far are of ",
-        sums.views.size(), " views, the problems of ", problems.views());
+  check(std::ssize(sums.views) == problems.views(), "[scores] the sums so far are of ", sums.views.size(),
+        " views, the problems of ", problems.views());
   ProblemSolver solver(distances, problems, options.scoring(), parallel);
   static const Messages kSilent;
   const std::uint64_t start = sums.problems, expected = expected_problems(problems, options);
   Progress progress(watch.messages == nullptr ? kSilent : *watch.messages, "semantic scores",
-                    static_cast<Index>(expected > start ? expected - start : 0));
+                    expected > start ? expected - start : 0);
   ScoreSums step(problems.views());
   while (!finished(problems, options, sums)) {
     const std::uint64_t done = sums.problems - start;
     const std::uint64_t in_a_quarter =
-        done == 0 ? kFirstStep : static_cast<std::uint64_t>(static_cast<double>(done) / progress.seconds() / 4);
+        done == 0 ? kFirstStep : static_cast<std::uint64_t>(done / progress.seconds() / 4);
     std::uint64_t last = std::min(next_look(sums.problems), sums.problems + std::max<std::uint64_t>(in_a_quarter, 1));
     if (options.problems > 0) last = std::min(last, options.problems);
     check(last <= ScoreSums::kMostProblems, "[scores] ", sums.problems,
@@ -108,7 +108,7 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
     // What is expected may be too little: the task must not look finished before it is.
     std::uint64_t shown = sums.problems - start;
     if (expected > start && !finished(problems, options, sums)) shown = std::min(shown, expected - start - 1);
-    progress.update(static_cast<Index>(shown));
+    progress.update(shown);
     if (watch.after_step) watch.after_step(sums);
   }
 }
