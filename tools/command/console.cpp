@@ -37,7 +37,7 @@ void Console::result(std::string_view text) {
   if (verbosity_ == Verbosity::errors_only) return;
   erase_bar();
   std::size_t start = 0, end;
-  do {  // line by line: a result may have many
+  do {  // line by line, because printable replaces line breaks
     end = std::min(text.find('\n', start), text.size());
     std::cout << printable(text.substr(start, end - start)) << '\n';
     start = end + 1;
