@@ -26,7 +26,7 @@ Agglomerative::Agglomerative(Linkage linkage, Index max_points)
 void Agglomerative::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                             std::span<std::int32_t> labels) {
   check_sizes(rows.size(), k, labels.size());
-  dissimilarity_.gather(distances, rows);
+  dissimilarity_.copy_rows(distances, rows);
   merge_to(k, nullptr, labels);
 }
 

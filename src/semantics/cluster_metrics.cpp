@@ -10,7 +10,7 @@
 namespace svnet {
 namespace {
 
-/// The largest label + 1, after counting the labels into sizes.
+/// Counts the labels into sizes. Returns the largest label + 1.
 Index count_labels(std::span<const std::int32_t> labels, Index max_items, std::vector<std::int64_t>& sizes) {
   const auto [lowest, highest] = std::minmax_element(labels.begin(), labels.end());
   check(*lowest >= 0 && *highest < max_items, "[cluster metrics] labels from ", *lowest, " to ", *highest,
@@ -31,15 +31,15 @@ double entropy(std::span<const std::int64_t> sizes, double n) {
   return sum;
 }
 
-/// The same partition with labels 0, 1, … in the order of the labels' values.
+/// Replaces labels by 0, 1, …, in ascending order of their values.
 std::vector<std::int32_t> dense(Labels labels) {
   std::vector<std::int64_t> values(labels.begin(), labels.end());
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  std::vector<std::int32_t> numbers(labels.size());
+  std::vector<std::int32_t> dense_labels(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i)
-    numbers[i] = std::lower_bound(values.begin(), values.end(), labels[i]) - values.begin();
-  return numbers;
+    dense_labels[i] = std::lower_bound(values.begin(), values.end(), labels[i]) - values.begin();
+  return dense_labels;
 }
 
 Contingency contingency(Labels truth, Labels predicted) {
@@ -77,7 +77,7 @@ void Contingency::count(std::span<const std::int32_t> truth, std::span<const std
   }
   for (Index i = 0; i < n_; ++i) by_class_[first_of_class_[truth[i]]++] = i;
 
-  // Walking the items class by class, the cells of earlier classes are those below first_cell.
+  // Items are visited class by class. Cells of earlier classes have indices below first_cell.
   std::fill_n(cell_of_cluster_.begin(), clusters_, -1);
   std::fill_n(majority_.begin(), clusters_, 0);
   cells_ = 0;

@@ -46,17 +46,17 @@ void assign_here(const double* sum, Index stride, const double* scale, const dou
   const Doubles d;
   const auto one = hn::Set(d, 1.0);
   for (Index i = 0; i < n; i += hn::Lanes(d)) {
-    auto best = hn::Set(d, std::numeric_limits<double>::infinity()), best_number = hn::Zero(d), number = hn::Zero(d);
-    for (Index c = 0; c < k; ++c, number = hn::Add(number, one)) {
+    auto best = hn::Set(d, std::numeric_limits<double>::infinity()), best_index = hn::Zero(d), index = hn::Zero(d);
+    for (Index c = 0; c < k; ++c, index = hn::Add(index, one)) {
       if (scale[c] == 0) continue;
       const auto mean = hn::Mul(hn::Load(d, sum + c * stride + i), hn::Set(d, scale[c]));
       const auto distance = hn::Max(hn::Zero(d), hn::Sub(mean, hn::Set(d, half_spread[c])));
       const auto nearer = hn::Lt(distance, best);
       best = hn::IfThenElse(nearer, distance, best);
-      best_number = hn::IfThenElse(nearer, number, best_number);
+      best_index = hn::IfThenElse(nearer, index, best_index);
     }
     hn::Store(best, d, nearest + i);
-    hn::Store(best_number, d, label + i);
+    hn::Store(best_index, d, label + i);
   }
 }
 

@@ -20,7 +20,7 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
     ++class_size_[truth[i]];
     ++cluster_size_[prediction[i]];
   }
-  // Every item counts its own pairs, so the sums are over ordered pairs.
+  // Every item counts its own pairs, so the sums run over ordered pairs.
   std::int64_t both = 0, in_truth = 0, in_prediction = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t together = cell_[truth[i] * max_categories_ + prediction[i]] - 1;
@@ -29,7 +29,7 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
     both += together;
     in_truth += true_partners;
     in_prediction += predicted_partners;
-    // 0/0 counts as 0: without pairs together there is none in the numerator.
+    // 0/0 becomes 0/1: without a true or predicted partner the numerator is 0.
     const double pairs = std::max<std::int64_t>(true_partners * predicted_partners, 1);
     individual[i] = together / std::sqrt(pairs);
     if (singletons == Singletons::skip && true_partners == 0) individual[i] = std::numeric_limits<double>::quiet_NaN();

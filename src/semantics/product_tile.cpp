@@ -10,8 +10,8 @@ namespace svnet {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 4 rows by 3 vectors: 12 sums, 3 vectors of the right panel and a number of the left one fill 16 registers. At most 8
-// lanes, so that the right width divides the tile.
+// 4 rows by 3 vectors: 12 sums, 3 vectors of the right panel and one element of the left panel take 16 registers. At
+// most 8 lanes, so that the right width divides the tile.
 using Doubles = hn::CappedTag<double, 8>;
 constexpr Index kLeftWidth = 4;
 

@@ -16,7 +16,7 @@ double mean(std::uint64_t sum, std::uint64_t count) { return count == 0 ? kNaN :
 
 }  // namespace
 
-void ScoreSums::take(ScoreSums& other) {
+void ScoreSums::add_and_clear(ScoreSums& other) {
   check(views.size() == other.views.size(), "[scores] sums of ", other.views.size(),
         " views cannot be added to those of ", views.size());
   problems += other.problems;
