@@ -44,7 +44,7 @@ class GivenLabels {
  public:
   GivenLabels(const char* function, const char* argument, const pybind11::object& given);
 
-  std::span<const std::int64_t> values() const { return {values_.data(), static_cast<std::size_t>(values_.size())}; }
+  std::span<const std::int64_t> values() const { return std::span(values_.data(), values_.size()); }
 
  private:
   Array<std::int64_t> values_;
@@ -93,7 +93,7 @@ pybind11::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels
 
 template <class T>
 pybind11::array_t<T> array_of(std::span<const T> values) {
-  return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+  return pybind11::array_t<T>(values.size(), values.data());
 }
 
 }  // namespace svnet::python
