@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
 #include <string_view>
 
+#include "base/enum_names.h"
 #include "image/image.h"
 
 namespace svnet {
@@ -12,8 +12,11 @@ namespace svnet {
 /// filters columns first, and bilinear differs from it by one grey level.
 enum class Interpolation { nearest, bilinear };
 
-/// "nearest" or "bilinear", as files name them. interpolation_named throws Error for any other name.
-std::string name_of(Interpolation);
+template <>
+inline constexpr auto enum_names<Interpolation> = std::to_array<EnumName<Interpolation>>(
+    {{Interpolation::nearest, "nearest"}, {Interpolation::bilinear, "bilinear"}});
+
+/// Throws Error for an unknown name.
 Interpolation interpolation_named(std::string_view name);
 
 /// `image` at another size. Throws Error unless both images have at least one pixel and rgb has the size it should.
