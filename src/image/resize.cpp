@@ -118,15 +118,9 @@ Image with_height(const Image& image, Index height) {
 
 }  // namespace
 
-std::string name_of(Interpolation interpolation) {
-  return interpolation == Interpolation::nearest ? "nearest" : "bilinear";
-}
-
 Interpolation interpolation_named(std::string_view name) {
-  for (const Interpolation known : {Interpolation::nearest, Interpolation::bilinear})
-    if (name == name_of(known)) return known;
-  const std::vector<std::string> names{"nearest", "bilinear"};
-  fail("interpolation '", name, "' is not known", suggestion(name, names));
+  if (const auto interpolation = find_enum<Interpolation>(std::string(name))) return *interpolation;
+  fail("interpolation '", name, "' is not known", suggestion(name, names_of<Interpolation>()));
 }
 
 Image resized(const Image& image, Index height, Index width, Interpolation interpolation) {

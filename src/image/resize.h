@@ -1,7 +1,7 @@
 #pragma once
-#include <string>
 #include <string_view>
 
+#include "base/enum_names.h"
 #include "image/image.h"
 
 namespace svnet {
@@ -12,8 +12,11 @@ namespace svnet {
 /// bilinear differs by at most one level.
 enum class Interpolation { nearest, bilinear };
 
-/// The names in files: "nearest", "bilinear". interpolation_named throws Error for any other name.
-std::string name_of(Interpolation);
+template <>
+inline constexpr auto enum_names<Interpolation> = std::to_array<EnumName<Interpolation>>(
+    {{Interpolation::nearest, "nearest"}, {Interpolation::bilinear, "bilinear"}});
+
+/// Throws Error for an unknown name.
 Interpolation interpolation_named(std::string_view name);
 
 /// `image` resized. Throws Error unless both sizes are positive and rgb has height x width x 3 elements.

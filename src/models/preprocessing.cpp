@@ -5,8 +5,7 @@
 namespace svnet {
 
 PixelMode pixel_mode_named(std::string_view name) {
-  for (const auto& known : enum_names<PixelMode>)
-    if (name == known.name) return known.value;
+  if (const auto mode = find_enum<PixelMode>(std::string(name))) return *mode;
   fail("preprocessing '", name, "' is not known", suggestion(name, names_of<PixelMode>()));
 }
 

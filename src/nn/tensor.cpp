@@ -13,8 +13,6 @@ std::size_t element_size(DType dtype) { return dtype == DType::f64 ? sizeof(doub
 
 }  // namespace
 
-const char* name_of(DType dtype) { return dtype == DType::f64 ? "f64" : "f32"; }
-
 Index element_count(const Shape& shape) {
   Index count = 1;
   for (Index size : shape)

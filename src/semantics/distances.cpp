@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "semantics/product_tile.h"
 
 namespace svnet {
@@ -21,10 +23,12 @@ constexpr double kSmallestSpread = 1e-30;
 template <class T>
 void check_finite(const T* features, Index n, Index dimension, Parallel& parallel) {
   parallel.for_chunks(n, 64, [&](Index begin, Index end, int) {
-    for (Index i = begin; i < end; ++i)
-      for (Index d = 0; d < dimension; ++d)
-        check(std::isfinite(features[i * dimension + d]), "[distances] feature ", d, " of row ", i, " is ",
-              features[i * dimension + d], "; every feature must be finite");
+    const std::span rows(features + begin * dimension, static_cast<std::size_t>((end - begin) * dimension));
+    if (const auto bad = first_not_finite(rows)) {
+      const Index at = static_cast<Index>(*bad);
+      fail("[distances] feature ", at % dimension, " of row ", begin + at / dimension, " is ", rows[*bad],
+           "; every feature must be finite");
+    }
   });
 }
 
