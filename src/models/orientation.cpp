@@ -23,7 +23,7 @@ void orient(int orientation, Index side, const float* from, float* to) {
 double oriented_theta_deg(int orientation, double theta_deg) {
   const double theta = std::fmod((orientation >= 4 ? 180 - theta_deg : theta_deg) + 90 * (orientation % 4), 360.0);
   const double turned = theta < 0 ? theta + 360 : theta;
-  return turned < 360 ? turned : 0;  // where a tiny negative one was rounded
+  return turned < 360 ? turned : 0;  // 360 − tiny is rounded to 360
 }
 
 }  // namespace svnet
