@@ -30,7 +30,7 @@ Tensor scaled(const Tensor& x, double factor) {
   return autograd::record(times(x), {x}, [times](const Tensor& dy, Gradients& g) { g.add(0, times(dy)); });
 }
 
-/// The same numbers; the gradient passes as it is.
+/// The same elements; the gradient passes unchanged.
 Tensor passed(const Tensor& x) {
   return autograd::record(x, {x}, [](const Tensor& dy, Gradients& g) { g.add(0, dy); });
 }

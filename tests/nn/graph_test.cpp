@@ -75,7 +75,7 @@ TEST_CASE("a graph says which layer does not fit, and why") {
   CHECK_THROWS_WITH(add(FlattenLayer{}, {7}), "[graph] layer 'block1_conv1' takes node 7, which does not exist");
   CHECK_THROWS_WITH(graph.input("image", {1}), "[graph] layer name 'image' is empty or taken");
   CHECK_THROWS_WITH(graph.input("", {1}), "[graph] layer name '' is empty or taken");
-  CHECK(graph.nodes().size() == 3);  // what failed left nothing behind
+  CHECK(graph.nodes().size() == 3);  // a failed add() leaves no node
 }
 
 TEST_CASE("a graph finds layers by name and suggests the nearest") {

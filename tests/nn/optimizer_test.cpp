@@ -58,7 +58,7 @@ Tensor moved(DType dtype, const Make& make) {
   const Tensor parameter = Tensor::zeros({kCount}, dtype).as_parameter();
   const auto optimizer = make({parameter});
   for (int t = 1; t <= kSteps; ++t) {
-    // The f64 run sees the f32 run's numbers.
+    // The f64 run starts from the values of the f32 run.
     autograd::GradientMap gradients;
     gradients.add(*parameter.node(), gradient(t, DType::f32).to(dtype));
     optimizer->step(gradients, kRate);

@@ -62,12 +62,11 @@ struct Relu6 {
   static constexpr Clamp kClamp = Clamp::relu6;
   template <class T>
   static T value(T x) {
-    return range_of<T>(kClamp).clamped(x);
+    return x < T{0} ? T{0} : x > T{6} ? T{6} : x;
   }
   template <class T>
   static T slope_at_output(T y) {
-    constexpr auto kRange = range_of<T>(kClamp);
-    return y > kRange.low && y < kRange.high ? T{1} : T{0};
+    return y > T{0} && y < T{6} ? T{1} : T{0};
   }
 };
 
@@ -84,7 +83,8 @@ struct Sigmoid {
   }
 };
 
-/// relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 and at 3 is 0.
+/// relu6(x + 3) / 6, as in MobileNetV3 (Howard et al., 2019) and Keras 3; Keras 2 has another function of this name.
+/// The slope at −3 and at 3 is 0.
 struct HardSigmoid {
   template <class T>
   static T value(T x) {
@@ -96,7 +96,7 @@ struct HardSigmoid {
   }
 };
 
-/// x · relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 is 0, at 3 it is 1.
+/// x · relu6(x + 3) / 6, as in MobileNetV3 (Howard et al., 2019). The slope at −3 is 0, at 3 it is 1.
 struct HardSwish {
   template <class T>
   static T value(T x) {

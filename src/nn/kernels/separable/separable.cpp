@@ -3,6 +3,7 @@
 #include "nn/kernels/separable/separable.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -31,9 +32,9 @@ struct Bounds {
   PanelVector low, high;
 
   explicit HWY_INLINE Bounds(Clamp clamp) {
-    const auto range = range_of(clamp);
-    low = hn::Set(PanelTag(), range.low);
-    high = hn::Set(PanelTag(), range.high);
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    low = hn::Set(PanelTag(), clamp == Clamp::none ? -kInfinity : 0.0f);
+    high = hn::Set(PanelTag(), clamp == Clamp::relu6 ? 6.0f : kInfinity);
   }
 };
 
