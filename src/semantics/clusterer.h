@@ -21,20 +21,19 @@ inline constexpr auto enum_names<Clustering> =
 struct ClusteringOptions {
   Clustering method = Clustering::ward;
   KMeansOptions kmeans{};
-  Index dimension = 1;  ///< of the features: k-means scales its tolerance by it
+  Index dimension = 1;  ///< of the features; used by the tolerance of k-means
 };
 
-/// Clusters by the algorithm that the options name; owns the memory that it needs. Not thread-safe: one object per
-/// thread.
+/// The clustering algorithm of the options, with its memory. Not thread-safe: use one object per thread.
 class Clusterer {
  public:
   Clusterer(const ClusteringOptions& options, Index max_points, Index max_clusters);
 
-  /// labels[i] becomes the cluster of rows[i], numbered from 0 in order of first appearance. k-means draws from the
-  /// stream of problem `number`. Allocates nothing. Throws Error for k outside [1, rows.size()].
+  /// Sets labels[i] to the cluster of rows[i]; clusters are numbered from 0 in order of first appearance. k-means draws
+  /// from the random stream (seed, number). Allocates nothing. Throws Error if k is not in [1, rows.size()].
   void cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::uint64_t seed,
                std::uint64_t number, std::span<std::int32_t> labels);
-  /// The same of points whose distances are already together.
+  /// The same for the points of `distances`.
   void cluster(const LowerTriangle& distances, Index k, std::uint64_t seed, std::uint64_t number,
                std::span<std::int32_t> labels);
 

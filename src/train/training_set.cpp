@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "models/orientation.h"
 #include "semantics/score_sums.h"
 #include "train/dataset_rows.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -32,7 +32,7 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, c
       Example example{.input = dataset.top_view(view.pose) * inputs.orientations() + orientation,
                       .angles = {},
                       .target = static_cast<float>(targets[i])};
-      encode_angles(angles, oriented_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
+      encode_angles(angles, symmetric_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
       examples_.push_back(example);
     }
   }

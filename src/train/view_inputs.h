@@ -40,7 +40,7 @@ class FeatureInputs : public ViewInputs {
 class PictureInputs : public ViewInputs {
  public:
   struct Options {
-    int orientations = 1;  ///< at most kOrientations; if more than 1, images must be square
+    int orientations = 1;  ///< at most kSymmetries; if more than 1, images must be square
     bool flat = false;     ///< inputs are rows of floats, like features
   };
   /// `frozen` empty: the inputs are the pixels. Keeps a reference to the dataset. Throws Error if images must be square

@@ -63,10 +63,10 @@ TEST_CASE("a model says how many orientations of the top image it looks at, wher
   const auto path = temporary.path() / "model.safetensors";
   const auto written = [&](int orientations, Index height) {
     Model model = small_model();
-    model.orientations = orientations;
+    model.symmetries = orientations;
     model.preprocessing.height = height;
     write_model(path, model);
-    return read_model(path).orientations;
+    return read_model(path).symmetries;
   };
   CHECK(written(8, 96) == 8);
   CHECK(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));

@@ -179,7 +179,7 @@ TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
   ScoreSums last(problems.views()), first(problems.views());
   solver.solve(10007, 40000, last);
   solver.solve(0, 10007, first);
-  first.take(last);
+  first.add_and_clear(last);
   CHECK(first == whole);
 }
 

@@ -206,7 +206,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
     const Image top =
         read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path);
     for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
-      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      const CameraPose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
       const float predicted = predictor.scores(predictor.embed(top), std::span(&camera, 1))[0];
       CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] == Approx(predicted).epsilon(1e-4));
     }
@@ -251,12 +251,12 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
   config.sv_net.angles = AngleEncoding::harmonics;
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
   const Model as_taken = Stages(config, dataset, temporary.path() / "run", {}).model();
-  CHECK(as_taken.orientations == 1);
+  CHECK(as_taken.symmetries == 1);
 
   config.sv_net.orientations = Orientations::all;
   Stages run(config, dataset, temporary.path() / "run", {});
   const Model model = run.model();
-  CHECK(model.orientations == 8);
+  CHECK(model.symmetries == 8);
   CHECK(model.input_fingerprint != as_taken.input_fingerprint);
   const std::vector<double> scores = run.predicted_scores(model);
   REQUIRE(scores.size() == dataset.views.size());
@@ -266,7 +266,7 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
     const Tensor features = predictor.embed(
         read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path));
     for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
-      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      const CameraPose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
       CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] ==
             Approx(predictor.scores(features, std::span(&camera, 1))[0]).epsilon(1e-4));
     }

@@ -4,7 +4,7 @@
 
 #include "base/sha256.h"
 #include "base/text.h"
-#include "models/orientation.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 
@@ -53,11 +53,11 @@ ScoreOptions score_options(const Config& config, Index dimension) {
 }
 
 int scored_orientations(const Config& config) {
-  return config.sv_net.orientations == Orientations::all ? kOrientations : 1;
+  return config.sv_net.orientations == Orientations::all ? kSymmetries : 1;
 }
 
 int trained_orientations(const Config& config) {
-  return config.training.augmentation == TopViewAugmentation::turns ? kOrientations : 1;
+  return config.training.augmentation == TopViewAugmentation::turns ? kSymmetries : 1;
 }
 
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {

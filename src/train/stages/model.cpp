@@ -6,7 +6,6 @@
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/models/checkpoint.h"
-#include "models/orientation.h"
 #include "models/trained_graph.h"
 #include "train/epoch_order.h"
 #include "train/stages/fingerprints.h"
@@ -14,6 +13,7 @@
 #include "train/trained_from.h"
 #include "train/trainer.h"
 #include "train/validation_categories.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -35,7 +35,7 @@ Model untrained_model(const Config& config, const Backbone& backbone, const std:
           .backbone_graph = backbone.graph(),
           .backbone_parameters = backbone.parameters(),
           .angles = angles,
-          .orientations = scored_orientations(config),
+          .symmetries = scored_orientations(config),
           .head = sv_net({.features = backbone.dimension(),
                           .width = config.sv_net.width,
                           .dropout = config.sv_net.dropout,

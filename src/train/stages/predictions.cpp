@@ -12,12 +12,12 @@ namespace {
 /// What the head takes, for every view. The features of the first stage serve if the backbone was not trained.
 std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features, const Model& model) {
   const Config& config = run.config;
-  if (config.training.fine_tune == FineTune::none && model.orientations == 1)
+  if (config.training.fine_tune == FineTune::none && model.symmetries == 1)
     return std::make_unique<FeatureInputs>(run.dataset, features.features(config.sv_net.backbone, config.sv_net.layer));
   return std::make_unique<PictureInputs>(run.dataset, model.preprocessing,
                                          std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
                                                                      model.backbone_graph.find(model.backbone_output)),
-                                         PictureInputs::Options{.orientations = model.orientations, .flat = true});
+                                         PictureInputs::Options{.orientations = model.symmetries, .flat = true});
 }
 
 }  // namespace
@@ -33,13 +33,13 @@ std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_sta
     const Index last = std::min(first + kPoses, pose_count);
     std::vector<Index> top_views;
     for (Index pose = first; pose < last; ++pose)
-      for (int orientation = 0; orientation < model.orientations; ++orientation)
-        top_views.push_back(run.dataset.top_view(pose) * model.orientations + orientation);
+      for (int orientation = 0; orientation < model.symmetries; ++orientation)
+        top_views.push_back(run.dataset.top_view(pose) * model.symmetries + orientation);
     const Tensor features = inputs->batch(top_views);
     for (Index pose = first; pose < last; ++pose) {
       Tensor top = Tensor::empty({1, dimension});
       std::copy_n(features.data<float>() + (pose - first) * dimension, dimension, top.data<float>());
-      std::vector<Pose> candidates;
+      std::vector<CameraPose> candidates;
       for (const View& view : run.dataset.views_of(pose))
         candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
       const std::vector<float> scores = head.scores(top, candidates);

@@ -1,4 +1,4 @@
-#include "render/sources.h"
+#include "simulation/object_source.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,7 +21,7 @@ bool contains(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
-/// `where` follows the name in messages.
+/// Throws Error for names that are not in `known` or given twice. `where` follows the name in messages.
 void check_categories(const std::vector<std::string>& categories, const std::vector<std::string>& known,
                       const std::string& where) {
   for (auto name = categories.begin(); name != categories.end(); ++name) {
@@ -42,25 +42,26 @@ std::vector<fs::path> sorted_entries(const fs::path& folder) {
   return entries;
 }
 
-/// The entries for which `is_meant` holds, but for those whose names readers ignore.
-std::vector<fs::path> named_entries(const fs::path& folder, bool (*is_meant)(const fs::path&),
-                                    const std::function<void(const std::string&)>& say) {
+/// The entries for which `is_wanted_kind` holds, without those whose names readers of datasets ignore.
+std::vector<fs::path> named_entries(const fs::path& folder, bool (*is_wanted_kind)(const fs::path&),
+                                    const std::function<void(const std::string&)>& line) {
   std::vector<fs::path> entries;
   for (const fs::path& entry : sorted_entries(folder)) {
-    if (!is_meant(entry)) continue;
+    if (!is_wanted_kind(entry)) continue;
     if (is_ignored_name(entry.filename()))
-      say("left out: " + entry.string() + ": names that begin with '_' or '.' are ignored in data sets");
+      line("left out: " + entry.string() + ": names that begin with '_' or '.' are ignored in data sets");
     else
       entries.push_back(entry);
   }
   return entries;
 }
 
-std::vector<Source> sources_of_category(const fs::path& folder, const std::function<void(const std::string&)>& say) {
+std::vector<ObjectSource> sources_of_category(const fs::path& folder,
+                                              const std::function<void(const std::string&)>& line) {
   const std::string category = folder.filename().string();
-  std::vector<Source> sources;
+  std::vector<ObjectSource> sources;
   std::map<std::string, fs::path> named;
-  for (const fs::path& file : named_entries(folder, is_mesh_name, say)) {
+  for (const fs::path& file : named_entries(folder, is_mesh_name, line)) {
     const std::string object = file.stem().string();
     const auto [twin, is_first] = named.emplace(object, file);
     check(is_first, twin->second.string(), " and ", file.string(), ": both are the object '", object,
@@ -76,7 +77,7 @@ std::string length_text(double metres) {
   return text;
 }
 
-/// The usual unit in which an object of `units` would have the size of a household object.
+/// A sentence that suggests metres, millimetres or centimetres if an object `units` long then has a household size.
 std::string unit_hint(double units) {
   for (const double unit : {1.0, 0.001, 0.01})
     if (units * unit >= 0.03 && units * unit <= 0.5)
@@ -95,30 +96,30 @@ void check_size(const Mesh& mesh, const std::string& name, double metres_per_uni
 
 }  // namespace
 
-std::vector<Source> catalogue_sources(const std::vector<std::string>& categories, Index objects) {
+std::vector<ObjectSource> catalogue_sources(const std::vector<std::string>& categories, Index objects) {
   check_categories(categories, catalogue_names(), "");
-  std::vector<Source> sources;
+  std::vector<ObjectSource> sources;
   for (const std::string& name : categories.empty() ? catalogue_names() : categories)
     for (Index object = 0; object < objects; ++object)
       sources.push_back({name, std::to_string(object + 1), object, {}});
   return sources;
 }
 
-std::vector<Source> mesh_sources(const fs::path& folder, const std::vector<std::string>& categories,
-                                 const std::function<void(const std::string&)>& say) {
+std::vector<ObjectSource> mesh_sources(const fs::path& folder, const std::vector<std::string>& categories,
+                                       const std::function<void(const std::string&)>& line) {
   constexpr const char* kExpected = "; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it";
   const auto folders = named_entries(
-      folder, [](const fs::path& entry) { return fs::is_directory(entry); }, say);
+      folder, [](const fs::path& entry) { return fs::is_directory(entry); }, line);
   std::vector<std::string> names;
   names.reserve(folders.size());
   for (const fs::path& category : folders) names.push_back(category.filename().string());
   check(!names.empty(), folder.string(), ": holds no meshes", kExpected);
   check_categories(categories, names, " in " + folder.string());
-  std::vector<Source> sources;
+  std::vector<ObjectSource> sources;
   for (const fs::path& category : folders) {
     const bool is_wanted = contains(categories, category.filename().string());
     if (!categories.empty() && !is_wanted) continue;
-    const auto found = sources_of_category(category, say);
+    const auto found = sources_of_category(category, line);
     check(!is_wanted || !found.empty(), category.string(), ": holds no meshes; expected NAME.obj, .ply, .stl or .glb");
     sources.insert(sources.end(), found.begin(), found.end());
   }
@@ -126,7 +127,7 @@ std::vector<Source> mesh_sources(const fs::path& folder, const std::vector<std::
   return sources;
 }
 
-Mesh mesh_of(const Source& source, double metres_per_unit, std::uint64_t seed) {
+Mesh mesh_of(const ObjectSource& source, double metres_per_unit, std::uint64_t seed) {
   if (source.file.empty()) return catalogue_object(source.category, source.design, seed);
   Mesh mesh = read_mesh(source.file, metres_per_unit);
   check_size(mesh, source.file.string(), metres_per_unit);

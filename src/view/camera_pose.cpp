@@ -1,4 +1,4 @@
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 #include <cmath>
 
@@ -15,7 +15,7 @@ std::string angle_problem(const char* name, double angle_deg, double lowest_deg,
 
 }  // namespace
 
-std::string pose_problem(const Pose& pose) {
+std::string pose_problem(const CameraPose& pose) {
   const std::string theta = angle_problem("theta", pose.theta_deg, -360, 720);
   return theta.empty() ? angle_problem("phi", pose.phi_deg, 0, 90) : theta;
 }

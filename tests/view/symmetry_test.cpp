@@ -1,4 +1,4 @@
-#include "models/orientation.h"
+#include "view/symmetry.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -32,11 +32,11 @@ TEST_CASE("A mark in a top view turns as azimuths do") {
       std::vector<float> picture(kSide * kSide * 3);
       for (Index c = 0; c < 3; ++c) picture[static_cast<std::size_t>((row * kSide + column) * 3 + c)] = 1;
       const double before = azimuth_of_mark(kSide, picture);
-      for (int orientation = 0; orientation < kOrientations; ++orientation) {
-        CAPTURE(row, column, orientation);
+      for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+        CAPTURE(row, column, symmetry);
         std::vector<float> turned(picture.size(), 5);
-        orient(orientation, kSide, picture.data(), turned.data());
-        const double expected = oriented_theta_deg(orientation, before);
+        apply_symmetry(symmetry, kSide, picture.data(), turned.data());
+        const double expected = symmetric_theta_deg(symmetry, before);
         CHECK(expected >= 0);
         CHECK(expected < 360);
         CHECK(azimuth_of_mark(kSide, turned) == Approx(expected).margin(1e-9));
@@ -44,15 +44,15 @@ TEST_CASE("A mark in a top view turns as azimuths do") {
     }
 }
 
-TEST_CASE("All orientations differ, and the first is the picture as taken") {
+TEST_CASE("All symmetries differ, and the first is the picture as taken") {
   std::vector<float> picture(3 * 3 * 3);
   for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = static_cast<float>(i + 1);
   std::set<std::vector<float>> seen;
-  for (int orientation = 0; orientation < kOrientations; ++orientation) {
+  for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
     std::vector<float> turned(picture.size());
-    orient(orientation, 3, picture.data(), turned.data());
-    if (orientation == 0) CHECK(turned == picture);
+    apply_symmetry(symmetry, 3, picture.data(), turned.data());
+    if (symmetry == 0) CHECK(turned == picture);
     seen.insert(turned);
   }
-  CHECK(seen.size() == kOrientations);
+  CHECK(seen.size() == kSymmetries);
 }
