@@ -95,14 +95,14 @@ Graph with_momentum(const Graph& graph, double momentum) {
 /// untrained network mean nothing.
 double momentum_at(std::int64_t t) { return std::min(static_cast<double>(t) / static_cast<double>(t + 1), 0.95); }
 
-/// Sums over an epoch.
-struct Learnt {
+/// Sums over images: of their losses, and of those that are recognised.
+struct ImageSums {
   double loss = 0;
   Index right = 0;
 };
 
-Learnt step(const Graph& described, Parameters& parameters, Optimizer& optimizer, const LabelledPictures::Batch& batch,
-            double rate, std::uint64_t seed) {
+ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimizer,
+               const LabelledPictures::Batch& batch, double rate, std::uint64_t seed) {
   const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
   const auto loss = [&](const Tensor& logits) { return ops::softmax_cross_entropy(logits, batch.classes); };
   const StepResult result = training_step(graph, parameters, optimizer, {batch.pixels}, loss,
@@ -140,16 +140,16 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
   double validation_accuracy = std::numeric_limits<double>::quiet_NaN();
   for (Index epoch = 0; epoch < options.epochs; ++epoch) {
     const auto order = epoch_order(training.size(), options.seed, epoch);
-    Learnt sum;
+    ImageSums sum;
     for (Index begin = 0, end; begin < training.size(); begin = end) {
       end = batch_end(begin, options.batch_size, training.size());
       const auto indices =
           std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-      const Learnt learnt = step(graph, parameters, *optimizer,
-                                 training.augmented_batch(indices, options.augmentation, options.seed, epoch),
-                                 schedule.at(optimizer->steps), options.seed);
-      sum.loss += learnt.loss;
-      sum.right += learnt.right;
+      const ImageSums batch = step(graph, parameters, *optimizer,
+                                   training.augmented_batch(indices, options.augmentation, options.seed, epoch),
+                                   schedule.at(optimizer->steps), options.seed);
+      sum.loss += batch.loss;
+      sum.right += batch.right;
       progress.update(optimizer->steps);
     }
     for (const auto& [name, parameter] : parameters.items())

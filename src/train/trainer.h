@@ -30,7 +30,7 @@ class Trainer {
           Communicator& communicator = SingleProcess::shared());
 
   /// The state before the first step.
-  Checkpoint beginning(Parameters parameters) const;
+  Checkpoint initial_state(Parameters parameters) const;
 
   /// Continues from a checkpoint, with the bits of a training that was not interrupted; changes its parameters in
   /// place. After each epoch calls `after_epoch` with the state, and with whether the epoch is the best so far: by
