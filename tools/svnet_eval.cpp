@@ -12,7 +12,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run folder holds but its evaluation.json, which may be named again, and the configuration.
+/// The configuration and all files of a run folder but evaluation.json, which --json may name.
 std::vector<fs::path> files_of_run(const fs::path& folder, const fs::path& config) {
   std::vector<fs::path> files{config};
   for (const auto& entry : fs::directory_iterator(folder))
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   Command command(
       "svnet-eval",
       "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
-      "and views.png: pictures of held-out objects from above, from where SV-net looks, and from the best view.",
+      "and views.png: held-out objects from above, from the view that SV-net chooses, and from the best view.",
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
   std::vector<std::string> selectors;

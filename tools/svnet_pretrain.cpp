@@ -31,8 +31,8 @@ std::string origin_text(const Pretrained& result, const PretrainingOptions& opti
 int main(int argc, char** argv) {
   Command command("svnet-pretrain",
                   "Trains a backbone from scratch to tell the categories of a dataset (category/object/pose/"
-                  "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on: "
-                  "how many of their pictures are recognised says how well the backbone learnt.",
+                  "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on; "
+                  "the share of their images that is recognised says how well the backbone learnt.",
                   "svnet-pretrain --images runs/rendered --exclude comb,knife --output tiny_xception.safetensors");
   std::filesystem::path images, output;
   PretrainingOptions options;
@@ -46,18 +46,18 @@ int main(int argc, char** argv) {
   app.add_option("--exclude", options.exclude, "Categories that take no part, with commas between them")
       ->delimiter(',');
   app.add_option("--validation-objects", options.validation_objects,
-                 "The last so many objects of each category are not trained on (1)")
+                 "The last N objects of each category are not trained on (1)")
       ->check(CLI::Range(0, 1000000));
-  app.add_option("--epochs", options.epochs, joined("Passes over the pictures (", options.epochs, ")"))
+  app.add_option("--epochs", options.epochs, joined("Passes over the images (", options.epochs, ")"))
       ->check(CLI::Range(1, 100000));
-  app.add_option("--batch", options.batch_size, joined("Pictures of a step (", options.batch_size, ")"))
+  app.add_option("--batch", options.batch_size, joined("Images in a step (", options.batch_size, ")"))
       ->check(CLI::Range(2, 4096));
   app.add_option("--learning-rate", options.learning_rate,
                  "The highest learning rate; it warms up and falls to 0 by half a cosine (0.002)")
       ->check(positive_number());
   app.add_option("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)")
       ->check(non_negative_number());
-  app.add_option("--seed", options.seed, "Seed of weights, order and changes of the pictures (0)")
+  app.add_option("--seed", options.seed, "Seed of the weights and of the order and changes of the images (0)")
       ->check(CLI::Range(Index{0}, Index{1} << 53));
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");

@@ -83,7 +83,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       .add_option("--snapshot-seconds", snapshot_seconds, "Seconds between two snapshots of the work so far")
       ->check(number_between(0, 30))
       ->capture_default_str();
-  command.app().add_flag("--resume", resume, "Go on from OUTPUT.snapshot, which is kept up to date, where it exists");
+  command.app().add_flag("--resume", resume, "Resume from OUTPUT.snapshot if it exists");
   return command.run(
       argc, argv,
       [&](Console& console) {

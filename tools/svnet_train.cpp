@@ -32,7 +32,8 @@ int run(int argc, char** argv, Communicator& communicator) {
       .add_option("--output", output, "The run folder (default: runs/<name of the configuration>)")
       ->type_name("DIR");
   command.app()
-      .add_option("--resume", resume, "auto: goes on with what the folder holds of the same run; never: trains anew")
+      .add_option("--resume", resume,
+                  "auto: resumes training from the checkpoints of the same configuration; never: trains again")
       ->check(CLI::IsMember({"auto", "never"}))
       ->capture_default_str();
   command.app().add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");

@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "simulation/catalogue.h"
 #include "simulation/collection.h"
-#include "simulation/picture_table.h"
 #include "simulation/resting.h"
 #include "simulation/sculptor.h"
 #include "simulation/texture.h"
@@ -227,25 +226,4 @@ TEST_CASE("nothing of a localised object is cut off in its views, and about one 
   const double mean = static_cast<double>(views) / static_cast<double>(poses);
   CHECK(mean > 20.3);  // the paper's mean is 21.1
   CHECK(mean < 21.7);
-}
-
-TEST_CASE("a contact sheet shows each picture in its cell, beside the label of its line") {
-  const Image red{2, 2, {255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0}};
-  const Image wide{1, 2, {0, 0, 255, 0, 0, 255}};
-  const Image sheet = picture_table({{"a", {red, wide}}, {"longer", {red}}}, 40);
-  CHECK(sheet.height == 2 * 42 + 2);
-  const auto pixel = [&](Index y, Index from_right) {
-    const auto at = static_cast<std::size_t>(3 * (y * sheet.width + sheet.width - from_right));
-    return std::vector<int>{sheet.rgb[at], sheet.rgb[at + 1], sheet.rgb[at + 2]};
-  };
-  CHECK(pixel(20, 60) == std::vector<int>{255, 0, 0});
-  CHECK(pixel(20, 20) == std::vector<int>{0, 0, 255});
-  CHECK(pixel(5, 20) == std::vector<int>{255, 255, 255});  // above the wide picture, which keeps its proportions
-  CHECK(pixel(62, 60) == std::vector<int>{255, 0, 0});
-  CHECK(pixel(62, 20) == std::vector<int>{255, 255, 255});
-  int dark = 0;
-  for (Index y = 0; y < sheet.height; ++y)
-    for (Index x = 0; x + 86 < sheet.width; ++x)
-      dark += sheet.rgb[static_cast<std::size_t>(3 * (y * sheet.width + x))] < 64;
-  CHECK(dark > 20);  // the labels
 }

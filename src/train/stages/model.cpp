@@ -102,7 +102,7 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
   trainer.train(
       from ? std::move(*from)
-           : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
+           : trainer.initial_state(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
         if (!run.communicator.is_root()) return;
         if (is_best) write_checkpoint(files.best, state);
