@@ -22,7 +22,7 @@ void take_snapshot(const std::filesystem::path& path, const std::string& fingerp
   check(snapshot.input_fingerprint == fingerprint, path.string(),
         ": a snapshot of other scores (other features, options or seed); repeat the command that made it, or leave out "
         "--resume");
-  const auto numbers = sums.numbers();
+  const auto numbers = sums.values();
   const auto views = static_cast<Index>(sums.views.size());
   check(snapshot.views == views && snapshot.sums.size() == numbers.size(), path.string(), ": dataset 'sums': has ",
         snapshot.sums.size(), " numbers of ", snapshot.views, " views, expected ", numbers.size(), " of ", views);
@@ -43,7 +43,7 @@ ScoreSums first_sums(const std::filesystem::path& path, const std::string& finge
     }
   sums.problems = options.communicator.broadcast(sums.problems);
   if (sums.problems == 0) return sums;
-  options.communicator.all_reduce(sums.numbers());
+  options.communicator.all_reduce(sums.values());
   if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
   return sums;
 }
@@ -56,7 +56,7 @@ class Snapshots {
 
   void offer(const ScoreSums& sums) {
     if (path_.empty() || std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
-    const auto numbers = sums.numbers();
+    const auto numbers = sums.values();
     write_scores_snapshot(path_, {fingerprint_,
                                   static_cast<Index>(sums.problems),
                                   static_cast<Index>(sums.views.size()),
