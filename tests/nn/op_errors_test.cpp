@@ -1,4 +1,4 @@
-// What the operations say where shapes, element types or numbers do not fit.
+// Error messages of the operations for shapes, element types and values that do not fit.
 #include <catch2/catch.hpp>
 
 #include "nn/ops/activations.h"
