@@ -11,14 +11,14 @@ namespace py = pybind11;
 constexpr const char* kDoc = R"(camera_pose(theta_deg, phi_deg, radius, centre, frame="paper")
 --
 
-Camera to world, for a camera on the upper half-sphere of a radius around the centre, that looks at the centre.
+The camera-to-world transform of a camera on the upper half-sphere around `centre`, looking at it.
 
 theta_deg, phi_deg : azimuth from the world's x axis and elevation above the table, in degrees; phi in [0, 90].
 radius : metres, positive. centre : (3,) array-like, metres; the world's z axis is vertical.
-frame : the camera's axes. "paper": z forward, x level and to the left of the picture, y upwards. "optical", ROS'
-REP-103: z forward, x right, y down.
-Returns (4, 4) float64, with which a point of the camera's frame is at camera_pose(...) @ [x, y, z, 1] in the world.
-Raises svnet.Error where the angles are out of range, lengths are not finite or not positive, or the frame is unknown.
+frame : the camera's axes. "paper": z forward, x level and to the left of the image, y upwards. "optical" (ROS,
+REP-103): z forward, x right, y down.
+Returns (4, 4) float64. It maps a point of the camera's frame to the world: camera_pose(...) @ [x, y, z, 1].
+Raises svnet.Error if an angle is out of range, a length is not finite, radius is not positive, or frame is unknown.
 )";
 
 py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& phi_deg, const py::object& radius,

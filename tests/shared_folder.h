@@ -2,8 +2,8 @@
 #include <cstdlib>
 #include <filesystem>
 
-/// `relative` in the folder of data that is too large for the repository (SVNET_SHARED, by default ../shared beside
-/// it). The path need not exist: a test that misses it skips with a message.
+/// The path of `relative` in the folder of data that is too large for the repository (SVNET_SHARED, default: ../shared
+/// next to it). It may not exist: then the test skips with a message.
 inline std::filesystem::path shared_folder(const std::filesystem::path& relative) {
   const char* given = std::getenv("SVNET_SHARED");
   return std::filesystem::path(given != nullptr ? given : SVNET_SOURCE_DIR "/../shared") / relative;

@@ -1,4 +1,4 @@
-// The C interface over Predictor: checks pointers and sizes, turns exceptions into a status and a text.
+// The C interface to Predictor: checks pointers and sizes, and converts exceptions to a status and a text.
 #include "svnet/svnet.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ namespace {
 
 using namespace svnet;
 
-/// A fixed buffer: keeping a message must not fail for want of memory.
+/// A fixed buffer, so that storing a message cannot run out of memory.
 thread_local char last_error[1024] = "";
 
 svnet_status failed(svnet_status status, const char* text) {
@@ -33,7 +33,7 @@ svnet_status failed(svnet_status status, const char* text) {
   return status;
 }
 
-/// SVNET_OK where `body` returns, the status of what it throws where not: `user_error` for Error.
+/// Runs `body`. Returns SVNET_OK, or the status of the exception that it throws; `user_error` for Error.
 template <class Body>
 svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
   try {
@@ -50,7 +50,7 @@ svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
   }
 }
 
-/// guarded, for bodies that compute: svnet_set_threads waits for them.
+/// guarded for bodies that compute; svnet_set_threads waits for them.
 template <class Body>
 svnet_status computed(svnet_status user_error, const Body& body) noexcept {
   return guarded(user_error, [&] {
@@ -59,7 +59,7 @@ svnet_status computed(svnet_status user_error, const Body& body) noexcept {
   });
 }
 
-/// Throws Error for a variable whose value is none, or not for this machine.
+/// Reads the environment variables. Throws Error for a value that is unknown or not possible on this machine.
 void check_environment() {
   static std::once_flag once;
   std::call_once(once, cap_from_environment);

@@ -52,8 +52,6 @@ class MpiCommunicator : public Communicator {
 
 }  // namespace
 
-bool built_with_mpi() { return true; }
-
 int main_with_communicator(int argc, char** argv, const char*,
                            int (*run)(int argc, char** argv, Communicator& communicator)) {
   if (!started_by_launcher()) {

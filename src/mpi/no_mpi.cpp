@@ -5,8 +5,6 @@
 
 namespace svnet {
 
-bool built_with_mpi() { return false; }
-
 int main_with_communicator(int argc, char** argv, const char* name,
                            int (*run)(int argc, char** argv, Communicator& communicator)) {
   if (started_by_launcher()) {

@@ -9,7 +9,7 @@ namespace svnet::test {
 
 using Function = std::function<Tensor(const std::vector<Tensor>& inputs)>;
 
-/// How far the tape's gradients are from central differences.
+/// The difference between the tape's gradients and central differences.
 struct GradientReport {
   /// The largest over the inputs of max |analytic − numeric| / max |numeric|; infinite if a gradient is missing,
   /// has another shape, is NaN, or is 0 everywhere, so that nothing would be checked.

@@ -18,7 +18,7 @@ using namespace svnet::test;
 
 namespace {
 
-/// Parameters of which no bias, mean or variance is trivial.
+/// Parameters whose biases, means and variances are not trivial.
 Parameters drawn(const Graph& graph) {
   Parameters parameters = initial_parameters(graph, 3);
   std::uint64_t seed = 100;
@@ -31,7 +31,7 @@ Parameters drawn(const Graph& graph) {
 
 const Tensor kImages = random_tensor({3, 12, 10, 5}, 1, DType::f32);
 
-/// Every kind of layer, and every way in which one may be fused into another, or must not be.
+/// Every kind of layer, with every fusion that is possible and some that are not.
 Graph all_layers() {
   Graph g;
   const Padding same = Padding::same();
@@ -42,7 +42,7 @@ Graph all_layers() {
   const NodeId act = g.add("act", ActivationLayer{Activation::relu}, {x});
   x = g.add("separable", SeparableConv2dLayer{.filters = 32, .kh = 3, .kw = 3, .padding = same}, {act});
   x = g.add("norm", BatchNormLayer{}, {x});
-  x = g.add("sum", AddLayer{}, {x, trunk});  // two readers of trunk: nothing may be applied to it in place
+  x = g.add("sum", AddLayer{}, {x, trunk});  // trunk has two readers, so nothing may be applied to it in place
   x = g.add("sum_act", ActivationLayer{Activation::relu}, {x});
   const NodeId before = x = g.add("after_sum", SeparableConv2dLayer{.filters = 24, .kh = 3, .kw = 3}, {x});
   x = g.add("expand", Conv2dLayer{.filters = 40, .bias = false}, {x});
@@ -74,9 +74,9 @@ Graph all_layers() {
 
 }  // namespace
 
-TEST_CASE("a batch that is taken in groups gives what each sample gives alone") {
+TEST_CASE("a batch that runs in groups gives the results of single samples") {
   const Graph graph = all_layers();
-  for (const char* name : {"after_sum", "average"}) {  // below dense layers, which want the whole batch
+  for (const char* name : {"after_sum", "average"}) {  // before dense layers, which take the whole batch
     const Inference inference(graph, drawn(graph), graph.find(name));
     REQUIRE(inference.arena_size(10000) == inference.arena_size(20000));
     Index batch = 1;
@@ -98,7 +98,7 @@ TEST_CASE("a batch that is taken in groups gives what each sample gives alone") 
   CHECK(dense.arena_size(2000) > dense.arena_size(1000));
 }
 
-TEST_CASE("an arena has room for the last group, which may need more scratch memory than a whole one") {
+TEST_CASE("an arena is large enough for the last group, which may need more scratch memory than a full one") {
   Graph graph;
   NodeId x = graph.input("image", {12, 12, 480});
   for (const char* name : {"a", "b", "c"})
@@ -109,10 +109,10 @@ TEST_CASE("an arena has room for the last group, which may need more scratch mem
     for (Index last = 1; last < 15 && last < batch; ++last)
       if ((batch - last) % 15 == 0) CHECK(inference.arena_size(batch) >= inference.arena_size(last));
   }
-  CHECK(inference.arena_size(29) > inference.arena_size(15));  // 15 together, and 14 that are cut into larger blocks
+  CHECK(inference.arena_size(29) > inference.arena_size(15));  // 14 samples are cut into larger blocks
 }
 
-TEST_CASE("a compiled graph computes what its layers say, whichever layer is the output") {
+TEST_CASE("a compiled graph computes its layers, for any output layer") {
   const Graph graph = all_layers();
   const Parameters parameters = drawn(graph);
   for (const auto convolution :
@@ -148,7 +148,7 @@ Graph squeeze_and_excite() {
 
 }  // namespace
 
-TEST_CASE("compiled squeeze and excitation computes what its layers say, whichever layer is the output") {
+TEST_CASE("compiled squeeze and excitation computes its layers, for any output layer") {
   const Graph graph = squeeze_and_excite();
   const Parameters parameters = drawn(graph);
   for (NodeId output = 1; output <= graph.output(); ++output) {
@@ -160,7 +160,7 @@ TEST_CASE("compiled squeeze and excitation computes what its layers say, whichev
   }
 }
 
-TEST_CASE("compiling fuses what has one reader") {
+TEST_CASE("compiling fuses layers that have one reader") {
   const Graph graph = all_layers();
   const auto program = runtime::compile(graph, drawn(graph), graph.output(), runtime::Convolution::automatic);
   std::vector<std::string> layers;
@@ -268,7 +268,7 @@ TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for 
   }
 }
 
-TEST_CASE("SVNET_PRECISION chooses bf16 where the machine has it") {
+TEST_CASE("SVNET_PRECISION chooses bf16 if the machine has it") {
   const Graph graph = all_layers();
   const auto made = [&](const char* word) {
     ::setenv("SVNET_PRECISION", word, 1);
@@ -305,7 +305,7 @@ TEST_CASE("a compiled graph says what is wrong with its inputs") {
   CHECK(compiled.run({Tensor::zeros({0, 12, 10, 5})}).shape() == Shape{0, 4});
 }
 
-TEST_CASE("a plan's values never share memory while both live") {
+TEST_CASE("values of a plan never share memory while both are in use") {
   RandomStream random(4, Stream::weights);
   std::vector<runtime::Lifetime> values(60);
   for (auto& value : values) {

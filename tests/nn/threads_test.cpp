@@ -1,4 +1,5 @@
-// The same bits for 1, 2 and 8 threads: every kernel at sizes of several chunks, and a network forwards and backwards.
+// The same bits for 1, 2 and 8 threads: every kernel at sizes of several chunks, and a network's forward and backward
+// passes.
 #include <catch2/catch.hpp>
 #include <functional>
 

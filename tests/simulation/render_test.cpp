@@ -29,7 +29,7 @@ double area(const Outline& points, const std::vector<std::array<std::uint32_t, 3
   return sum;
 }
 
-/// ∫ dV of the divergence theorem; positive where the triangles face outwards.
+/// The volume by the divergence theorem; positive if the triangles face outwards.
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const Mesh::Triangle& triangle : mesh.triangles)
@@ -85,7 +85,7 @@ TEST_CASE("the centre of mass and the hull are those of the solid") {
   const Mesh mesh = sculptor.take();
   CHECK((centre_of_mass(mesh) - Eigen::Vector3d(0.1, 0, -0.05)).norm() < 1e-5);
 
-  // Whichever way its faces look. A fin beside a cube has much area and little volume.
+  // For any orientation of the faces. A fin next to a cube has a large area and a small volume.
   sculptor.use({});
   sculptor.box(50, 50, 50);
   sculptor.box(200, 2, 50).move(100, 0, 0);
@@ -189,12 +189,12 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   CHECK(sensor_picture(shot, {3, 7}).rgb.rgb == picture.rgb.rgb);
 }
 
-TEST_CASE("sRGB goes there and back") {
+TEST_CASE("conversion to sRGB and back is the identity") {
   for (int level = 0; level < 256; ++level)
     CHECK(srgb_from_linear(linear_from_srgb(static_cast<std::uint8_t>(level))) == Approx(level).margin(0.3));
 }
 
-TEST_CASE("nothing of a localised object is cut off in its views, and about one of 22 views is missing") {
+TEST_CASE("views show a localised object completely, and about one of 22 views is missing") {
   Index views = 0, poses = 0;
   for (const char* category : {"hammer", "mug", "plate", "key"}) {
     const Mesh mesh = catalogue_object(category, 1, 1);

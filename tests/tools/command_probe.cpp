@@ -1,4 +1,4 @@
-// A program that does what its argument says, for command_test.cpp to watch from outside.
+// A program that does what its argument says. command_test.cpp runs it.
 
 #include <chrono>
 #include <csignal>
@@ -16,7 +16,7 @@ using namespace svnet;
 
 namespace {
 
-/// A file that is there as long as this object.
+/// A file that exists as long as this object.
 struct TemporaryFile {
   explicit TemporaryFile(std::string name) : path(std::move(name)) { std::ofstream(path) << "half written"; }
   ~TemporaryFile() { std::filesystem::remove(path); }

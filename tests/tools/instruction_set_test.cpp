@@ -15,7 +15,7 @@ using namespace svnet;
 
 namespace {
 
-/// Of the largest value: networks of a dozen layers in float32, whose sums are taken in another order.
+/// Relative to the largest value: float32 sums of a dozen layers, taken in another order.
 constexpr double kTolerance = 1e-4;
 
 /// The largest difference, relative to the largest value.
@@ -62,7 +62,7 @@ Results results(const Workplace& place, const std::string& instruction_set) {
 
 }  // namespace
 
-TEST_CASE("features in bf16 are near those in f32, say so and have another fingerprint") {
+TEST_CASE("features in bf16 are near those in f32, are marked as bf16 and have another fingerprint") {
   if (!kernels::machine_has_bf16()) {
     WARN("this processor has no AVX512-BF16: nothing is tested");
     return;
@@ -84,7 +84,7 @@ TEST_CASE("features in bf16 are near those in f32, say so and have another finge
   CHECK(features("SVNET_PRECISION=bf16 ", " --precision f32").values == plain.values);
 }
 
-TEST_CASE("SVNET_MAX_ISA: svnet-info says what is in force") {
+TEST_CASE("SVNET_MAX_ISA: svnet-info prints the instruction set in use") {
   const Workplace place;
   for (const std::string& set : instruction_sets())
     CHECK_THAT(place.output_of("SVNET_MAX_ISA=" + set + " svnet-info"), Catch::Contains("\nkernels: " + set + " "));

@@ -11,13 +11,13 @@ using namespace svnet;
 
 namespace {
 
-const std::string kBase = "dataset: {root: data}\nscores: {problems: 10}\n";  // the least that is valid, two lines
+const std::string kBase = "dataset: {root: data}\nscores: {problems: 10}\n";  // the shortest valid one
 
 Config parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_config(text, "c.yaml", "/work/configs", overrides);
 }
 
-/// The message of the error that reading `text` gives; empty where it is read.
+/// The error message of reading `text`; empty if it succeeds.
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     parse(text, overrides);
@@ -121,7 +121,7 @@ TEST_CASE("every error of a key names file, line and key") {
         "c.yaml:5: dataset.held_out[2]: 'car' is listed twice");
 }
 
-TEST_CASE("what concerns several keys is checked when all are known") {
+TEST_CASE("rules about several keys are checked after all keys are read") {
   CHECK(error_of("scores: {problems: 1}") == "c.yaml: dataset.root: required, name the folder of the images");
   CHECK(error_of("scores: {problems: 1}\ndataset: {root: ''}") ==
         "c.yaml:2: dataset.root: required, name the folder of the images");
@@ -135,7 +135,7 @@ TEST_CASE("what concerns several keys is checked when all are known") {
   CHECK(parse("dataset: {root: d}", {"scores.target_error=0.01"}).scores.target_error == 0.01);
 }
 
-TEST_CASE("what is not the YAML that is wanted says the line") {
+TEST_CASE("wrong YAML is refused with its line") {
   CHECK(error_of("seed: 1\ndataset: {root: [}\n") == "c.yaml:2: illegal flow end (column 18)");
   CHECK(error_of("seed: 1\n\tdataset: 3\n").starts_with("c.yaml:2: "));
   CHECK(error_of("seed: 1\n'open") == "c.yaml:2: illegal EOF in scalar (column 6)");
@@ -212,7 +212,7 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   CHECK(again.scores.singletons == Singletons::skip);
 }
 
-TEST_CASE("the tables are of the pipeline of the scores where none is named") {
+TEST_CASE("the evaluation uses the pipeline of the scores if none is named") {
   CHECK(parse("dataset: {root: data}\nscores: {backbone: mobilenet, clustering: single, problems: 1}\n")
             .evaluation.pipelines == std::vector<std::string>{"mobilenet_single"});
 }
@@ -222,7 +222,7 @@ TEST_CASE("every key can be overridden by its own written value, and its default
     INFO(key.name);
     CHECK_FALSE(key.help.empty());
     const std::string error = error_of(kBase, {key.name + "=" + key.default_value});
-    // The two that have no valid default.
+    // The two keys without a valid default.
     if (key.name == "dataset.root")
       CHECK(error == "--set dataset.root: required, name the folder of the images");
     else
@@ -237,7 +237,7 @@ TEST_CASE("configs/paper.yaml documents every key with the paper's values") {
   const std::filesystem::path folder = std::filesystem::path(SVNET_SOURCE_DIR) / "configs";
   const Config c = read_config(folder / "paper.yaml");
   const std::string text = file_contents(folder / "paper.yaml"), documented = documented_yaml(c, folder);
-  // The file is a heading of its own and then what the table of keys says: run this test to see what to write.
+  // The file is a heading and then documented_yaml(): this test prints what to write.
   CAPTURE(documented);
   CHECK(text.ends_with("\n\n" + documented));
   CHECK(c.dataset.held_out == std::vector<std::string>{"comb", "hammer", "knife", "toothbrush", "wrench"});
