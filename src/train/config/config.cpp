@@ -143,7 +143,8 @@ std::string documented_yaml(const Config& config, const path& folder) { return w
 std::vector<ConfigKey> config_keys() {
   Config config;
   std::vector<ConfigKey> keys;
-  for (const auto& key : bound_keys(config)) keys.push_back({key.name, key.help, key.accepts, key.write({})});
+  for (const auto& key : bound_keys(config))
+    keys.push_back({key.name, key.stage, key.help, key.accepts, key.write({})});
   return keys;
 }
 

@@ -96,9 +96,18 @@ std::string to_yaml(const Config& config);
 /// The same, each key below a comment with its meaning and what it accepts; paths are written relative to `folder`.
 std::string documented_yaml(const Config& config, const std::filesystem::path& folder);
 
+/// The stages of a run, in order: each one takes the results of those before it.
+enum class Stage { features, scores, model, evaluation };
+template <>
+inline constexpr auto enum_names<Stage> = std::to_array<EnumName<Stage>>({{Stage::features, "features"},
+                                                                          {Stage::scores, "scores"},
+                                                                          {Stage::model, "model"},
+                                                                          {Stage::evaluation, "evaluation"}});
+
 /// One key of the configuration, as help shows it.
 struct ConfigKey {
   std::string name;           ///< "scores.min_samples"
+  Stage stage;                ///< the first stage whose result depends on the key
   std::string help;           ///< its meaning
   std::string accepts;        ///< "a whole number >= 0"
   std::string default_value;  ///< as YAML
