@@ -61,8 +61,6 @@ const std::vector<std::pair<std::string, std::string>> kPendingCircles{
     {"src/nn/autograd", "src/nn/tensor"},
     {"src/nn/kernels/adam/adam", "src/nn/kernels/adam/adam_run-inl"},
     {"src/nn/kernels/winograd/plan", "src/nn/kernels/winograd/winograd"},
-    {"src/semantics/agglomerate", "src/semantics/agglomerative"},
-    {"src/train/config/config", "src/train/config/config_table"},
     {"src/train/training_set", "src/train/view_inputs"},
 };
 

@@ -1,5 +1,3 @@
-#include "train/config/config.h"
-
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -7,7 +5,9 @@
 
 #include "base/error.h"
 #include "temporary_folder.h"
+#include "train/config/config_file.h"
 #include "train/config/fingerprint.h"
+#include "train/config/pipeline_name.h"
 #include "train/config/strict_yaml.h"
 
 using namespace svnet;

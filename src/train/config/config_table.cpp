@@ -1,8 +1,9 @@
-#include "config_table.h"
+#include "train/config/config_table.h"
 
 #include "base/error.h"
 #include "base/text.h"
 #include "semantics/score_sums.h"
+#include "train/config/pipeline_name.h"
 
 namespace svnet {
 namespace {
@@ -172,16 +173,6 @@ BoundKey bound_key(Config& config, const std::string& name) {
   for (const BoundKey& key : bound_keys(config))
     if (key.name == name) return key;
   fail("[config] there is no key '", name, "'");
-}
-
-PipelineName parse_pipeline(const std::string& name, const std::string& where) {
-  const auto at = name.rfind('_');
-  check(at != std::string::npos && at > 0, where, ": '", name,
-        "' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: ",
-        joined_with(", ", names_of<Clustering>()));
-  const std::string clustering = name.substr(at + 1);
-  check_choice(where + ": " + name, clustering, names_of<Clustering>());
-  return {name.substr(0, at), *find_enum<Clustering>(clustering)};
 }
 
 }  // namespace svnet

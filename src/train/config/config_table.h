@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "train/config/config.h"
+#include "train/config/stage.h"
 #include "train/config/strict_yaml.h"
 
 namespace svnet {

@@ -4,7 +4,7 @@
 #include <map>
 
 #include "base/sha256.h"
-#include "config_table.h"
+#include "train/config/config_table.h"
 
 namespace svnet {
 namespace {

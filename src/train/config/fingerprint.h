@@ -3,6 +3,7 @@
 #include <string>
 
 #include "train/config/config.h"
+#include "train/config/stage.h"
 
 // The fingerprint of a stage is the SHA-256 of the fingerprints of its inputs and of the names and values of the keys
 // that the table of keys (config_table.cpp) gives to the stage. A result whose file has the fingerprint that is wanted

@@ -1,4 +1,4 @@
-#include "train/config/config.h"
+#include "train/config/config_file.h"
 
 #include <algorithm>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "config_table.h"
+#include "train/config/config_table.h"
 #include "train/config/strict_yaml.h"
 
 namespace svnet {
