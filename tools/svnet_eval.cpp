@@ -1,7 +1,9 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
 #include "command/command.h"
+#include "config_option.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "train/config/config_file.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
 #include "train/stages/model.h"
@@ -44,13 +46,12 @@ int main(int argc, char** argv) {
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
   std::vector<std::string> selectors;
-  Index problems = 0;
+  Config given;  // by options
   command.app()
       .add_option("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>")
       ->required();
-  command.app()
-      .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
-      ->check(CLI::Range(Index{1}, Index{1} << 53));
+  const auto* problems =
+      add_config_option(command.app(), given, "--problems", "evaluation.problems")->default_str("evaluation.problems");
   command.app()
       .add_option("--selectors", selectors, selectors_help())
       ->delimiter(',')
@@ -65,6 +66,7 @@ int main(int argc, char** argv) {
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const fs::path config_file = folder_given ? source / "config.yaml" : source;
     Config config = read_config(config_file);
+    if (!problems->empty()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
@@ -76,7 +78,7 @@ int main(int argc, char** argv) {
     const std::vector<double> predicted = predicted_scores(run, features, model);
     const Scores scores = scores_stage(run, features);
     const EvaluationInputs inputs{features, scores, predicted};
-    const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);
+    const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
     const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));

@@ -3,6 +3,7 @@
 #include "command/openblas_cap.h"
 #include "io/views/dataset_folder.h"
 #include "mpi/mpi_communicator.h"
+#include "train/config/config_file.h"
 #include "train/run_folder.h"
 #include "train/stages/dry_run.h"
 #include "train/stages/features.h"

@@ -6,6 +6,8 @@
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "models/registry.h"
+#include "train/config/config_file.h"
+#include "train/config/pipeline_name.h"
 #include "train/dataset_rows.h"
 #include "train/feature_extraction.h"
 #include "train/random_problems.h"

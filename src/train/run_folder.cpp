@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 #include "io/views/dataset_folder.h"
-#include "train/config/config.h"
+#include "train/config/config_file.h"
 
 namespace svnet {
 namespace {

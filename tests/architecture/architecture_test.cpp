@@ -64,7 +64,6 @@ const std::vector<std::pair<std::string, std::string>> kPendingCircles{
     {"src/nn/kernels/adam/adam", "src/nn/kernels/adam/adam_run-inl"},
     {"src/nn/kernels/winograd/plan", "src/nn/kernels/winograd/winograd"},
     {"src/semantics/agglomerate", "src/semantics/agglomerative"},
-    {"src/train/config/config", "src/train/config/config_table"},
 };
 
 /// Files that still read or write the environment themselves.

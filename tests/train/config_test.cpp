@@ -1,10 +1,13 @@
-#include "train/config/config.h"
-
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "temporary_folder.h"
+#include "train/config/config_file.h"
+#include "train/config/fingerprint.h"
+#include "train/config/pipeline_name.h"
 #include "train/config/strict_yaml.h"
 
 using namespace svnet;
@@ -231,6 +234,60 @@ TEST_CASE("every key can be overridden by its own written value, and its default
                             "scores.min_samples, scores.problems or scores.target_error above 0"
                           : ""));
   }
+}
+
+namespace {
+
+/// A valid value of the key that is not its default, as an override.
+std::string another_value(const ConfigKey& key) {
+  if (key.accepts.starts_with("a whole number")) return std::to_string(std::stoll(key.default_value) + 5);
+  if (key.accepts.starts_with("a number")) return "0.5";
+  if (key.accepts.starts_with("one of")) return key.accepts.substr(key.accepts.rfind(' ') + 1);
+  if (key.accepts.starts_with("a list")) return "[other_kmeans]";
+  return "other";
+}
+
+/// The fingerprints of scores, model and evaluation, from features of given fingerprints.
+std::array<std::string, 3> fingerprints(const Config& config, const std::string& of_views = "views",
+                                        const std::string& of_top_views = "top views") {
+  const std::string scores = scores_fingerprint(of_views, config);
+  const std::string model = model_fingerprint(of_top_views, scores, config);
+  return {scores, model, stage_fingerprint(Stage::evaluation, std::array{scores, model}, config)};
+}
+
+}  // namespace
+
+TEST_CASE("a key changes the fingerprint of its stage, those of later stages, and none of earlier ones") {
+  const std::string pipelines = "evaluation.pipelines=[xception_ward]";
+  const auto before = fingerprints(parse(kBase, {pipelines}));
+  for (const ConfigKey& key : config_keys()) {
+    INFO(key.name << ", of stage " << name_of(key.stage));
+    const std::string value = another_value(key);
+    REQUIRE(value != key.default_value);
+    const auto after = fingerprints(parse(kBase, {pipelines, key.name + "=" + value}));
+    const Stage stages[] = {Stage::scores, Stage::model, Stage::evaluation};
+    for (std::size_t i = 0; i < 3; ++i) {
+      INFO("fingerprint of " << name_of(stages[i]));
+      // Keys of the features count through the fingerprints of the features, which stay as they are here.
+      CHECK((after[i] != before[i]) == (key.stage != Stage::features && key.stage <= stages[i]));
+    }
+  }
+}
+
+TEST_CASE("fingerprints change with those of the features, and with every name of an enum") {
+  const Config c = parse(kBase);
+  const auto before = fingerprints(c), views = fingerprints(c, "others"),
+             top_views = fingerprints(c, "views", "others");
+  for (std::size_t i = 0; i < 3; ++i) CHECK(views[i] != before[i]);
+  CHECK(top_views[0] == before[0]);
+  CHECK(top_views[1] != before[1]);
+  std::set<std::string> different;
+  for (const std::string& name : names_of<Clustering>())
+    different.insert(fingerprints(parse(kBase, {"scores.clustering=" + name}))[0]);
+  CHECK(different.size() == 5);
+  // Lists are told apart from their items.
+  CHECK(fingerprints(parse(kBase, {"dataset.held_out=[a, b]"}))[0] !=
+        fingerprints(parse(kBase, {"dataset.held_out=['a, b']"}))[0]);
 }
 
 TEST_CASE("configs/paper.yaml documents every key with the paper's values") {

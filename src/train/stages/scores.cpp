@@ -7,8 +7,9 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "semantics/semantic_scores.h"
+#include "train/config/fingerprint.h"
 #include "train/random_problems.h"
-#include "train/stages/fingerprints.h"
+#include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
 
 namespace svnet {
