@@ -9,6 +9,7 @@
 #include "nn/kernels/gemm.h"
 #include "nn/numbers.h"
 #include "nn/ops/activations.h"
+#include "nn/ops/batch_norm.h"
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
 #include "nn/ops/dropout.h"

@@ -16,8 +16,7 @@ json to_json_value(const T& value) {
   if constexpr (std::is_enum_v<T>) {
     return name_of(value);
   } else if constexpr (std::is_same_v<T, Padding>) {
-    if (value.kind == Padding::Kind::valid) return "valid";
-    if (value.kind == Padding::Kind::same) return "same";
+    if (value.kind != Padding::Kind::explicit_) return name_of(value.kind);
     return json::array({value.top, value.bottom, value.left, value.right});
   } else {
     return value;
@@ -29,10 +28,9 @@ void from_json_value(const json& value, T& to) {
   if constexpr (std::is_enum_v<T>) {
     to = enum_from_name<T>("unknown value", value.get<std::string>());
   } else if constexpr (std::is_same_v<T, Padding>) {
-    if (value == "valid") {
-      to = Padding::valid();
-    } else if (value == "same") {
-      to = Padding::same();
+    if (value.is_string()) {
+      to = {.kind = enum_from_name<Padding::Kind>("unknown value", value.get<std::string>())};
+      check(to.kind != Padding::Kind::explicit_, "explicit padding is a list of four numbers");
     } else {
       const auto sizes = value.get<std::array<Index, 4>>();
       to = Padding::of(sizes[0], sizes[1], sizes[2], sizes[3]);

@@ -13,11 +13,6 @@ using namespace kernels;
 
 constexpr Index kChunk = 1 << 14;
 
-float clamped(float y, Clamp clamp) {
-  if (clamp != Clamp::none && y < 0.0f) y = 0.0f;
-  return clamp == Clamp::relu6 && y > 6.0f ? 6.0f : y;
-}
-
 }  // namespace
 
 StepPointer pool_step(const Window& window, bool max) {
@@ -30,13 +25,13 @@ StepPointer pool_step(const Window& window, bool max) {
 }
 
 StepPointer add_step(Index size, std::size_t inputs, Clamp clamp) {
-  return plain_step("add", size * static_cast<Index>(inputs), [size, clamp](const StepBuffers& b) {
+  return plain_step("add", size * static_cast<Index>(inputs), [=, range = range_of(clamp)](const StepBuffers& b) {
     b.parallel.for_chunks(b.batch * size, kChunk, [&](Index begin, Index end, int) {
       std::copy(b.inputs[0] + begin, b.inputs[0] + end, b.output + begin);
       for (std::size_t i = 1; i < b.inputs.size(); ++i)
         for (Index j = begin; j < end; ++j) b.output[j] += b.inputs[i][j];
       if (clamp != Clamp::none)
-        for (Index j = begin; j < end; ++j) b.output[j] = clamped(b.output[j], clamp);
+        for (Index j = begin; j < end; ++j) b.output[j] = range.clamped(b.output[j]);
     });
   });
 }

@@ -62,11 +62,12 @@ struct Relu6 {
   static constexpr Clamp kClamp = Clamp::relu6;
   template <class T>
   static T value(T x) {
-    return x < T{0} ? T{0} : x > T{6} ? T{6} : x;
+    return range_of<T>(kClamp).clamped(x);
   }
   template <class T>
   static T slope_at_output(T y) {
-    return y > T{0} && y < T{6} ? T{1} : T{0};
+    constexpr auto kRange = range_of<T>(kClamp);
+    return y > kRange.low && y < kRange.high ? T{1} : T{0};
   }
 };
 
