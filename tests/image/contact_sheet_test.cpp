@@ -4,7 +4,7 @@
 
 using namespace svnet;
 
-TEST_CASE("a contact sheet shows each picture in its cell, beside the label of its line") {
+TEST_CASE("a contact sheet shows each image in its cell, next to the label of its row") {
   const Image red{2, 2, {255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0}};
   const Image wide{1, 2, {0, 0, 255, 0, 0, 255}};
   const std::vector<SheetLine> lines{{.groups = {{.cells = {{red}, {wide}}}}, .label = "a"},
@@ -17,7 +17,7 @@ TEST_CASE("a contact sheet shows each picture in its cell, beside the label of i
   };
   CHECK(pixel(20, 60) == std::vector<int>{255, 0, 0});
   CHECK(pixel(20, 20) == std::vector<int>{0, 0, 255});
-  CHECK(pixel(5, 20) == std::vector<int>{255, 255, 255});  // above the wide picture, which keeps its proportions
+  CHECK(pixel(5, 20) == std::vector<int>{255, 255, 255});  // above the wide image, which keeps its proportions
   CHECK(pixel(62, 60) == std::vector<int>{255, 0, 0});
   CHECK(pixel(62, 20) == std::vector<int>{255, 255, 255});
   int dark = 0;
