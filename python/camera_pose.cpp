@@ -27,7 +27,7 @@ py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& p
   const CameraPose pose{number(kFunction, "theta_deg", theta_deg), number(kFunction, "phi_deg", phi_deg)};
   const double radius_m = number(kFunction, "radius", radius);
   const auto [x, y, z] = point(kFunction, "centre", centre);
-  const CameraFrame axes = camera_frame_named(text(kFunction, "frame", frame, R"("paper" or "optical")"));
+  const CameraFrame axes = camera_frame_named(text(kFunction, "frame", frame, quoted_names<CameraFrame>().c_str()));
   const Eigen::Matrix4d matrix = svnet::look_at(pose, radius_m, {x, y, z}, axes).matrix();
   py::array_t<double> result({4, 4});
   for (Eigen::Index row = 0; row < 4; ++row)

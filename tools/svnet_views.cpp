@@ -29,7 +29,7 @@ struct Options {
   double diagonal_m = 0, lowest_phi_deg = 0;
   Index fibonacci = 0;
   bool largest = false;
-  std::string frame = "optical";
+  std::string frame = name_of(CameraFrame::optical);
 };
 
 struct CameraView {
@@ -207,7 +207,7 @@ int main(int argc, char** argv) {
   app.add_option("--frame", options.frame,
                  "Axes of the orientation: optical (ROS: z forward, x right, y down; default) or "
                  "paper (z forward, x left, y up)")
-      ->check(CLI::IsMember({"optical", "paper"}));
+      ->check(CLI::IsMember(names_of<CameraFrame>()));
   app.add_option("--csv", options.csv, "Writes CSV to a file");
   app.add_option("--json", options.json, "Writes JSON to a file");
   app.add_option("--plot", options.plot, "Writes a picture of the half-sphere from above: filled dots can be reached");
