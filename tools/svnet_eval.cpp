@@ -72,7 +72,8 @@ int main(int argc, char** argv) {
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
-    const Run run = make_run(config, std::move(dataset), folder, console.messages());
+    const Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
+                             inference_options_from_environment());
     FeaturesStage features(run);
     const Model model = trained_model(run, features);
     const std::vector<double> predicted = predicted_scores(run, features, model);

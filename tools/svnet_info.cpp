@@ -16,7 +16,7 @@ std::string machine_text() {
   const std::vector<std::string> sets = instruction_sets();
   return joined("svnet ", kVersion, "\ncpu: ", cpu_name(), "\ninstruction sets, best first: ", joined_with(", ", sets),
                 "\nkernels: ", sets.front(), " (SVNET_MAX_ISA forces a lower one)",
-                "\nmatrix products of OpenBLAS: ", openblas_get_corename(),
+                "\nmatrix products of OpenBLAS: ", openblas_get_corename(), " (OPENBLAS_CORETYPE chooses others)",
                 "\nthreads: ", Parallel::shared().threads());
 }
 
@@ -48,11 +48,12 @@ int main(int argc, char** argv) {
       return console.result(machine_text());
     }
     if (!plan) return console.result(description_of(what));
+    const InferenceOptions options = inference_options_from_environment(command.precision());
     const std::filesystem::path file = what;
     if (std::filesystem::exists(file) || file.has_extension() || file.has_parent_path()) {
       if (!layer.empty()) wrong_usage("--layer is for backbones, a model file has its own");
-      return console.result(model_plan(file, batch));
+      return console.result(model_plan(file, batch, options));
     }
-    console.result(backbone_plan(what, layer, batch));
+    console.result(backbone_plan(what, layer, batch, options));
   });
 }

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   return command.run(argc, argv, [&](Console& console) {
     if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file});
     const std::vector<CameraPose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
-    const Predictor predictor(model);
+    const Predictor predictor(model, inference_options_from_environment());
     const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);
     if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));
     console.result(json ? json_text(poses, scores) : table_text(poses, scores));

@@ -63,6 +63,7 @@ int main(int argc, char** argv) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     check_can_be_written(output);
     const ViewDataset dataset = read_view_dataset(images);
+    options.inference = inference_options_from_environment();
     const Pretrained result = pretrain(dataset, options, console.messages());
     write_backbone(output, result.backbone, origin_text(result, options));
     console.result(joined(output.string(), ": ", result.backbone.kind().name, ", ", result.categories.size(),

@@ -3,7 +3,6 @@
 
 #include "command/command.h"
 #include "command/number_check.h"
-#include "command/openblas_cap.h"
 #include "config_option.h"
 #include "data/scores_summary.h"
 #include "io/files/atomic_file.h"
@@ -95,7 +94,4 @@ int run(int argc, char** argv, Communicator& communicator) {
 }  // namespace
 }  // namespace svnet
 
-int main(int argc, char** argv) {
-  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_with_communicator(argc, argv, "svnet-score", svnet::run);
-}
+int main(int argc, char** argv) { return svnet::main_with_communicator(argc, argv, "svnet-score", svnet::run); }

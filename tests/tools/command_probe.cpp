@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -59,9 +58,6 @@ void work(const std::string& what, const std::string& file, Console& console) {
   } else if (what == "hangup") {
     std::raise(SIGHUP);
     progress("after it", 1, 1, 0);
-  } else if (what == "openblas") {
-    const char* core = std::getenv("OPENBLAS_CORETYPE");
-    console.result(core != nullptr ? core : "none");
   } else if (what == "hang") {
     console.result("ready");
     std::cout.flush();

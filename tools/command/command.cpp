@@ -1,7 +1,6 @@
 #include "command/command.h"
 
 #include <csignal>
-#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <iostream>
@@ -12,7 +11,6 @@
 #include "base/version.h"
 #include "command/help_text.h"
 #include "command/interrupt.h"
-#include "command/openblas_cap.h"
 
 namespace svnet {
 namespace {
@@ -54,7 +52,6 @@ CLI::Option* Command::add_precision() {
 }
 
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Communicator& communicator) {
-  cap_openblas_from_environment(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit fails with EFBIG; it does not kill the process
   try {
     app_.parse(argc, argv);
@@ -68,7 +65,6 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     remember_interrupts();
     cap_from_environment();
     if (threads_ > 0) Parallel::shared().resize(threads_);
-    if (!precision_.empty()) ::setenv("SVNET_PRECISION", precision_.c_str(), 1);
     body(console);
     console.end_task();
     flush_results();

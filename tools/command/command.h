@@ -39,8 +39,10 @@ class Command {
 
   /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone.
   CLI::Option* add_precision();
+  /// "f32" or "bf16", "" if it was not given.
+  const std::string& precision() const { return precision_; }
 
-  /// Parses the arguments and runs `body`. SVNET_MAX_ISA, --threads and --precision are in force while it runs.
+  /// Parses the arguments and runs `body`. SVNET_MAX_ISA and --threads are in force while it runs.
   ///
   /// Returns the exit status: 0 done, 1 failed (one line on stderr says what, where and what to do), 2 wrong usage,
   /// 130 interrupted.

@@ -1,7 +1,8 @@
 #pragma once
 #include <algorithm>
 
-#include "nn/kernels/winograd/winograd.h"
+#include "nn/kernels/packed/panel.h"
+#include "nn/kernels/window.h"
 
 namespace svnet::kernels {
 
@@ -30,8 +31,6 @@ struct WinogradPlan {
 
   enum class Use { by_tiles, by_channels, weight_gradient };
 
-  WinogradPlan(const Window& w, const WinogradWeights& weights)
-      : WinogradPlan(w, weights.k, weights.transformed ? Use::by_tiles : Use::by_channels) {}
   WinogradPlan(const Window& w, Index channels, Use use)
       : window(w),
         k(channels),

@@ -8,6 +8,7 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
+#include "base/aligned.h"
 #include "nn/kernels/winograd/transforms-inl.h"
 
 HWY_BEFORE_NAMESPACE();

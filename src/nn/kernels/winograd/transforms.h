@@ -1,6 +1,6 @@
 #pragma once
+#include "nn/kernels/epilogue.h"
 #include "nn/kernels/winograd/plan.h"
-#include "nn/kernels/winograd/winograd.h"
 
 // The transforms of Winograd's F(4×4, 3×3) and of its weight gradient, on the calling thread. 36 points stand for one
 // tile; a panel is 16 channels.
@@ -12,6 +12,12 @@ void winograd_input_points(const WinogradPlan& plan, const float* x, TileRange g
 /// points [36][end - begin][16] of one panel of taps [C][9][16], for the input channels [begin, end). `point` is the
 /// distance between two points.
 void winograd_weight_points(const float* taps, Index begin, Index end, float* points, Index point);
+
+/// What winograd_outputs does to the outputs: y = clamp(y + bias), then, with `pool`, the maximum of every 2×2.
+struct WinogradFinish {
+  Clamp clamp = Clamp::none;
+  bool pool = false;
+};
 
 /// The outputs y of `tiles` in one panel of output channels, from products [36][tiles.count()][16].
 void winograd_outputs(const WinogradPlan& plan, const float* products, const float* bias, TileRange tiles, Index panel,

@@ -7,11 +7,14 @@
 #include <algorithm>
 
 #include "nn/kernels/packed/tile_kernels.h"
-#include "nn/kernels/winograd/plan.h"
-#include "nn/kernels/winograd/transforms.h"
 
 namespace svnet::kernels {
 namespace {
+
+WinogradPlan plan_of(const Window& window, const WinogradWeights& weights) {
+  using Use = WinogradPlan::Use;
+  return {window, weights.k, weights.transformed ? Use::by_tiles : Use::by_channels};
+}
 
 /// Transformed weights [36][channels][16] of some panels of output channels, with the distances between two points and
 /// between two panels.
@@ -115,12 +118,12 @@ WinogradWeights winograd_weights(Index c, Index k, const float* w, const float* 
 }
 
 Index winograd_scratch(const Window& window, const WinogradWeights& weights, int threads) {
-  return WinogradPlan(window, weights).scratch(threads);
+  return plan_of(window, weights).scratch(threads);
 }
 
 void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, const WinogradWeights& weights,
                      const WinogradFinish& finish, float* y, float* scratch) {
-  const WinogradPlan plan(window, weights);
+  const WinogradPlan plan = plan_of(window, weights);
   (weights.transformed ? by_tiles : by_channels)(parallel, plan, x, weights, finish, y, scratch);
 }
 

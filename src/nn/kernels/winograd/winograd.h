@@ -1,8 +1,7 @@
 #pragma once
 #include "base/parallel.h"
-#include "nn/kernels/epilogue.h"
 #include "nn/kernels/packed/packed_weights.h"
-#include "nn/kernels/window.h"
+#include "nn/kernels/winograd/transforms.h"
 
 namespace svnet::kernels {
 
@@ -23,12 +22,6 @@ bool winograd_fits(const Window& window, Index k);
 
 /// From w (3, 3, C, K) and bias (K), which may be nullptr. Requires C and K to be multiples of 16.
 WinogradWeights winograd_weights(Index c, Index k, const float* w, const float* bias);
-
-/// What follows the convolution in the same pass: the clamp, then, with `pool`, the maximum of every 2×2 outputs.
-struct WinogradFinish {
-  Clamp clamp = Clamp::none;
-  bool pool = false;
-};
 
 /// y is (N, OH, OW, K), or (N, OH / 2, OW / 2, K) with finish.pool. scratch holds winograd_scratch floats.
 void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, const WinogradWeights& weights,
