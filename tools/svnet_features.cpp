@@ -37,19 +37,13 @@ int run(int argc, char** argv, Communicator& communicator) {
   for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer;
   std::filesystem::path weights, images, output;
-  command.app()
-      .add_option("--backbone", backbone, "The network: " + joined_with(", ", names))
-      ->required()
-      ->type_name("NAME");
-  command.app()
-      .add_option("--weights", weights,
-                  "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
-      ->type_name("FILE");
-  command.app().add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
-  command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
-  command.app()
-      .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
-      ->type_name("NAME");
+  command.add("--backbone", backbone, "The network: " + joined_with(", ", names)).required().value_name("NAME");
+  command.add("--weights", weights, "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
+      .value_name("FILE");
+  command.add("--images", images, "The dataset's folder").required().value_name("DIR");
+  command.add("--output", output, "The file to write").required().value_name("FILE");
+  command.add("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
+      .value_name("NAME");
   command.add_precision();
   return command.run(
       argc, argv,

@@ -34,14 +34,11 @@ int main(int argc, char** argv) {
   std::string what, layer;
   bool plan = false;
   Index batch = 1;
-  command.app().add_option("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
-  auto* asked = command.app().add_flag("--plan", plan, "Print the steps of the compiled network, timed");
-  command.app()
-      .add_option("--batch", batch, "Pictures that run together (default 1)")
-      ->needs(asked)
-      ->check(CLI::Range(1, 1024));
-  command.app().add_option("--layer", layer, "The backbone's layer to stop at (default: the pooled one)")->needs(asked);
-  command.add_precision()->needs(asked);
+  command.add("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
+  const Argument asked = command.add_flag("--plan", plan, "Print the steps of the compiled network, timed");
+  command.add("--batch", batch, "Pictures that run together (default 1)").needs(asked).in_range(1, 1024);
+  command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
+  command.add_precision().needs(asked);
   return command.run(argc, argv, [&](Console& console) {
     if (what.empty()) {
       if (plan) wrong_usage("--plan takes a model file or the name of a backbone");

@@ -21,22 +21,17 @@ int run(int argc, char** argv, Communicator& communicator) {
   std::vector<std::string> overrides;
   std::string resume = "auto";
   bool dry = false;
-  command.app()
-      .add_option("CONFIG", config_file, "The configuration; configs/paper.yaml explains every key")
-      ->required();
-  command.app()
-      .add_option("--set", overrides, "Sets a key of the configuration; may be given several times")
-      ->type_name("KEY=VALUE")
-      ->allow_extra_args(false);
-  command.app()
-      .add_option("--output", output, "The run folder (default: runs/<name of the configuration>)")
-      ->type_name("DIR");
-  command.app()
-      .add_option("--resume", resume,
-                  "auto: resumes training from the checkpoints of the same configuration; never: trains again")
-      ->check(CLI::IsMember({"auto", "never"}))
-      ->capture_default_str();
-  command.app().add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
+  command.add("CONFIG", config_file, "The configuration; configs/paper.yaml explains every key").required();
+  command.add("--set", overrides, "Sets a key of the configuration; may be given several times")
+      .value_name("KEY=VALUE")
+      .one_value_per_use();
+  command.add("--output", output, "The run folder (default: runs/<name of the configuration>)").value_name("DIR");
+  command
+      .add("--resume", resume,
+           "auto: resumes training from the checkpoints of the same configuration; never: trains again")
+      .one_of({"auto", "never"})
+      .shows_default();
+  command.add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
   return command.run(
       argc, argv,
       [&](Console& console) {
