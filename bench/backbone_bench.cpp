@@ -17,7 +17,8 @@ struct Work {
 /// Keeps the last network, because google-benchmark calls a benchmark several times.
 const Backbone& network_named(const std::string& name) {
   static std::unique_ptr<const Backbone> last;
-  if (!last || last->kind().name != name) last = std::make_unique<const Backbone>(random_backbone(name, "", 1));
+  if (!last || last->kind().name != name)
+    last = std::make_unique<const Backbone>(random_backbone(name, "", 1, inference_options_from_environment()));
   return *last;
 }
 

@@ -76,15 +76,16 @@ std::unique_ptr<LoadedBackbone> load(const py::object& given_name, const py::obj
   const std::string output =
       given_layer.is_none() ? "" : text("Backbone", "layer", given_layer, "the name of a layer, or None");
   const std::uint64_t seed = whole_number("Backbone", "seed", given_seed);
+  const InferenceOptions options = inference_options_from_environment();
   if (given_weights.is_none()) {
     const Computing computing;
-    if (auto built_in = built_in_backbone(name, output)) return new_backbone(std::move(built_in->backbone), {});
-    return new_backbone(random_backbone(name, output, seed), {});
+    if (auto built_in = built_in_backbone(name, output, options)) return new_backbone(std::move(built_in->backbone), {});
+    return new_backbone(random_backbone(name, output, seed, options), {});
   }
   const std::string weights = path("Backbone", "weights", given_weights);
   const Computing computing;
   KerasLoadReport report;
-  Backbone backbone = read_backbone(name, weights, output, &report);
+  Backbone backbone = read_backbone(name, weights, output, &report, options);
   return new_backbone(std::move(backbone), std::move(report.unused));
 }
 

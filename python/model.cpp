@@ -81,7 +81,7 @@ std::vector<float> scores(const Predictor& self, const char* function, const py:
 std::unique_ptr<Predictor> load(const py::object& given) {
   const std::string file = path("Model.load", "path", given);
   const Computing computing;
-  return std::make_unique<Predictor>(std::filesystem::path(file));
+  return std::make_unique<Predictor>(std::filesystem::path(file), inference_options_from_environment());
 }
 
 py::array_t<float> score(const Predictor& self, const py::object& image, const py::object& angles_deg) {

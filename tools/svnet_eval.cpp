@@ -47,17 +47,14 @@ int main(int argc, char** argv) {
   fs::path source, json;
   std::vector<std::string> selectors;
   Config given;  // by options
-  command.app()
-      .add_option("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>")
-      ->required();
-  const auto* problems =
-      add_config_option(command.app(), given, "--problems", "evaluation.problems")->default_str("evaluation.problems");
-  command.app()
-      .add_option("--selectors", selectors, selectors_help())
-      ->delimiter(',')
-      ->check(CLI::IsMember(selector_names()))
-      ->type_name("NAMES");
-  command.app().add_option("--json", json, "Writes evaluation.json here too")->type_name("FILE");
+  command.add("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>").required();
+  const Argument problems =
+      add_config_option(command, given, "--problems", "evaluation.problems").shows_default("evaluation.problems");
+  command.add("--selectors", selectors, selectors_help())
+      .separated_by_commas()
+      .one_of(selector_names())
+      .value_name("NAMES");
+  command.add("--json", json, "Writes evaluation.json here too").value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
@@ -66,13 +63,14 @@ int main(int argc, char** argv) {
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const fs::path config_file = folder_given ? source / "config.yaml" : source;
     Config config = read_config(config_file);
-    if (!problems->empty()) config.evaluation.problems = given.evaluation.problems;
+    if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
-    const Run run = make_run(config, std::move(dataset), folder, console.messages());
+    const Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
+                             inference_options_from_environment());
     FeaturesStage features(run);
     const Model model = trained_model(run, features);
     const std::vector<double> predicted = predicted_scores(run, features, model);

@@ -2,8 +2,6 @@
 #include <algorithm>
 
 #include "command/command.h"
-#include "command/number_check.h"
-#include "command/openblas_cap.h"
 #include "config_option.h"
 #include "data/scores_summary.h"
 #include "io/files/atomic_file.h"
@@ -29,39 +27,31 @@ int run(int argc, char** argv, Communicator& communicator) {
   bool resume = false;
   double snapshot_seconds = 10;
   Config config;
-  command.app()
-      .add_option("--features", features_file, "Features of every view (svnet-features)")
-      ->required()
-      ->type_name("FILE");
-  command.app()
-      .add_option("--dataset", dataset_folder, "The dataset that the features are of")
-      ->required()
-      ->type_name("DIR");
-  command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
-  command.app()
-      .add_option("--exclude", excluded, "Categories that take no part, separated by commas")
-      ->delimiter(',')
-      ->type_name("NAMES");
+  command.add("--features", features_file, "Features of every view (svnet-features)").required().value_name("FILE");
+  command.add("--dataset", dataset_folder, "The dataset that the features are of").required().value_name("DIR");
+  command.add("--output", output, "The file to write").required().value_name("FILE");
+  command.add("--exclude", excluded, "Categories that take no part, separated by commas")
+      .separated_by_commas()
+      .value_name("NAMES");
   const auto key = [&](const char* option, const char* name) {
-    return add_config_option(command.app(), config, option, name);
+    return add_config_option(command, config, option, name);
   };
-  auto* samples = key("--min-samples", "scores.min_samples");
-  auto* problems = key("--problems", "scores.problems");
-  auto* error = key("--target-error", "scores.target_error");
-  samples->excludes(problems)->excludes(error);
-  problems->excludes(error);
+  const Argument samples = key("--min-samples", "scores.min_samples");
+  const Argument problems = key("--problems", "scores.problems");
+  const Argument error = key("--target-error", "scores.target_error");
+  samples.excludes(problems).excludes(error);
+  problems.excludes(error);
   key("--linkage", "scores.clustering");
   key("--singletons", "scores.singletons");
   key("--seed", "seed");
-  const auto* fewest = key("--min-categories", "scores.min_categories");
+  const Argument fewest = key("--min-categories", "scores.min_categories");
   key("--max-categories", "scores.max_categories");
   key("--min-objects", "scores.min_objects");
   key("--max-objects", "scores.max_objects");
-  command.app()
-      .add_option("--snapshot-seconds", snapshot_seconds, "Seconds between two snapshots of the work so far")
-      ->check(number_between(0, 30))
-      ->capture_default_str();
-  command.app().add_flag("--resume", resume, "Resume from OUTPUT.snapshot if it exists");
+  command.add("--snapshot-seconds", snapshot_seconds, "Seconds between two snapshots of the work so far")
+      .in_interval(0, 30)
+      .shows_default();
+  command.add_flag("--resume", resume, "Resume from OUTPUT.snapshot if it exists");
   return command.run(
       argc, argv,
       [&](Console& console) {
@@ -79,7 +69,7 @@ int run(int argc, char** argv, Communicator& communicator) {
         const auto available = std::count(left_out.begin(), left_out.end(), false);
         check(available >= 2, available, " categories take part, at least 2 are needed",
               excluded.empty() ? "" : "; --exclude fewer");
-        check(fewest->empty() || s.min_categories <= available, "--min-categories: ", s.min_categories, ", but ",
+        check(!fewest.given() || s.min_categories <= available, "--min-categories: ", s.min_categories, ", but ",
               available, " categories take part");
         const Scores scores = make_scores(output, dataset, features, left_out, config, console.messages(),
                                           {.resume = resume ? Resume::any : Resume::never,
@@ -95,7 +85,4 @@ int run(int argc, char** argv, Communicator& communicator) {
 }  // namespace
 }  // namespace svnet
 
-int main(int argc, char** argv) {
-  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_with_communicator(argc, argv, "svnet-score", svnet::run);
-}
+int main(int argc, char** argv) { return svnet::main_with_communicator(argc, argv, "svnet-score", svnet::run); }

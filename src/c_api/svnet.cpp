@@ -10,8 +10,6 @@
 #include "base/fixed_threads.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "nn/kernels/convolution_choice.h"
-#include "nn/kernels/precision.h"
 #include "pixels.h"
 #include "predict/predictor.h"
 
@@ -59,12 +57,11 @@ svnet_status computed(svnet_status user_error, const Body& body) noexcept {
   });
 }
 
-/// Reads the environment variables. Throws Error for a value that is unknown or not possible on this machine.
-void check_environment() {
+/// The choices of the environment. Throws Error for a value that is unknown or not possible on this machine.
+InferenceOptions options_from_environment() {
   static std::once_flag once;
   std::call_once(once, cap_from_environment);
-  kernels::convolution_from_environment();
-  kernels::check_available(kernels::precision_from_environment());
+  return inference_options_from_environment();
 }
 
 void check_given(const void* pointer, const char* function, const char* name) {
@@ -99,14 +96,16 @@ svnet_status svnet_set_threads(int threads) {
 }
 
 svnet_status svnet_model_load(const char* path, svnet_model** model) {
+  InferenceOptions options;
   const svnet_status arguments = guarded(SVNET_INVALID_ARGUMENT, [&] {
     check_given(model, "svnet_model_load", "model");
     *model = nullptr;
     check_given(path, "svnet_model_load", "path");
-    check_environment();
+    options = options_from_environment();
   });
   if (arguments != SVNET_OK) return arguments;
-  return computed(SVNET_INVALID_MODEL, [&] { *model = new svnet_model{Predictor(std::filesystem::path(path))}; });
+  return computed(SVNET_INVALID_MODEL,
+                  [&] { *model = new svnet_model{Predictor(std::filesystem::path(path), options)}; });
 }
 
 void svnet_model_free(svnet_model* model) { delete model; }

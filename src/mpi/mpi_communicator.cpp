@@ -5,8 +5,8 @@
 
 #include <mpi.h>
 
+#include "base/environment.h"
 #include "base/error.h"
-#include "launcher.h"
 
 namespace svnet {
 namespace {

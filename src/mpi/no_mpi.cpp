@@ -1,6 +1,6 @@
 #include <iostream>
 
-#include "launcher.h"
+#include "base/environment.h"
 #include "mpi/mpi_communicator.h"
 
 namespace svnet {

@@ -26,7 +26,8 @@ struct BackboneWithOrigin {
 /// The backbone with the weights that `folder` holds for it; otherwise those that are built in; otherwise, if `folder`
 /// is empty, random ones. Throws Error as check_weights does.
 BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
-                                        const std::filesystem::path& folder, std::uint64_t seed);
+                                        const std::filesystem::path& folder, std::uint64_t seed,
+                                        const InferenceOptions& options = {});
 
 /// Throws Error if `folder` is given but holds no weights of the backbone, and none are built in.
 void check_weights(const std::string& name, const std::filesystem::path& folder);

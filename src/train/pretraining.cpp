@@ -66,9 +66,10 @@ Index recognised(const Tensor& logits, const std::vector<Index>& classes) {
 }
 
 /// The share of the images that the network classifies correctly.
-double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures) {
+double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures,
+                const InferenceOptions& options) {
   constexpr Index kBatch = 64;
-  const Inference network(graph, parameters, graph.output());
+  const Inference network(graph, parameters, graph.output(), options);
   std::vector<std::int32_t> indices(static_cast<std::size_t>(pictures.size()));
   std::iota(indices.begin(), indices.end(), 0);
   Index right = 0;
@@ -102,11 +103,14 @@ struct ImageSums {
 };
 
 ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimizer,
-               const LabelledPictures::Batch& batch, double rate, std::uint64_t seed) {
+               const LabelledPictures::Batch& batch, double rate, const PretrainingOptions& options) {
   const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
   const auto loss = [&](const Tensor& logits) { return ops::softmax_cross_entropy(logits, batch.classes); };
   const StepResult result = training_step(graph, parameters, optimizer, {batch.pixels}, loss,
-                                          {.task = "pretraining", .learning_rate = rate, .seed = seed});
+                                          {.task = "pretraining",
+                                           .learning_rate = rate,
+                                           .seed = options.seed,
+                                           .convolution = options.inference.convolution});
   return {result.loss * static_cast<double>(batch.classes.size()), recognised(result.output, batch.classes)};
 }
 
@@ -147,7 +151,7 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
           std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
       const ImageSums batch = step(graph, parameters, *optimizer,
                                    training.augmented_batch(indices, options.augmentation, options.seed, epoch),
-                                   schedule.at(optimizer->steps), options.seed);
+                                   schedule.at(optimizer->steps), options);
       sum.loss += batch.loss;
       sum.right += batch.right;
       progress.update(optimizer->steps);
@@ -156,7 +160,7 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
       check(is_finite(parameter), "[pretraining] ", name, " is not finite after epoch ", epoch + 1,
             "; a smaller learning rate may help");
     const auto count = static_cast<double>(training.size());
-    if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation);
+    if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation, options.inference);
     if (messages.line)
       messages.line(
           joined("epoch ", epoch + 1, "/", options.epochs, ": loss ", sum.loss / count, ", recognised ",
@@ -165,7 +169,8 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
   }
   Parameters dropped;
   take_trained(parameters, backbone, dropped);
-  return {Backbone(kind, layers, backbone), parts.categories, training.size(), validation.size(), validation_accuracy};
+  return {Backbone(kind, layers, backbone, "", options.inference), parts.categories, training.size(), validation.size(),
+          validation_accuracy};
 }
 
 }  // namespace svnet

@@ -20,6 +20,7 @@ struct PretrainingOptions {
   double weight_decay = 0.05;
   Augmentation augmentation{};
   std::uint64_t seed = 0;
+  InferenceOptions inference{};
 };
 
 struct Pretrained {

@@ -75,6 +75,7 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
                         .learning_rate = options_.schedule.at(optimizer.steps),
                         .seed = options_.seed,
                         .products = autograd::GradientMap::Products::keep,
+                        .convolution = options_.convolution,
                         .communicator = &communicator_})
       .loss;
 }

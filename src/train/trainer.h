@@ -5,6 +5,7 @@
 #include "base/communicator.h"
 #include "base/progress.h"
 #include "io/models/checkpoint.h"
+#include "nn/kernels/convolution_choice.h"
 #include "nn/optim/optimizer.h"
 #include "nn/optim/schedule.h"
 #include "train/training_set.h"
@@ -17,6 +18,7 @@ struct TrainerOptions {
   OptimizerOptions optimizer{};
   Schedule schedule;  // in steps
   std::uint64_t seed = 0;
+  kernels::Convolution convolution = kernels::Convolution::automatic;
   std::string input_fingerprint;  // copied into checkpoints
 };
 

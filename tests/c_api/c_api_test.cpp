@@ -2,12 +2,12 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <thread>
 
 #include "base/version.h"
 #include "predict/predictor.h"
+#include "shell.h"
 #include "small_model.h"
 #include "svnet/svnet.h"
 #include "temporary_folder.h"
@@ -215,12 +215,10 @@ TEST_CASE("a wrong environment variable is an invalid argument, not an invalid m
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.safetensors";
   write_model(path, small_model());
-  svnet_model* model = nullptr;
-  for (const char* name : {"SVNET_PRECISION", "SVNET_CONVOLUTION"}) {
-    setenv(name, "fast", 1);
-    CHECK(svnet_model_load(path.c_str(), &model) == SVNET_INVALID_ARGUMENT);
-    CHECK_THAT(svnet_last_error(), Catch::Contains(name));
-    CHECK(model == nullptr);
-    unsetenv(name);
-  }
+  const auto load_with = [&](const std::string& variables) {
+    return run_shell(folder.path(), variables + " " C_API_LOAD_PROBE " " + path.string()).out;
+  };
+  CHECK(load_with("SVNET_PRECISION=fast") == "1 none [SVNET_PRECISION] 'fast' is neither f32 nor bf16\n");
+  CHECK(load_with("SVNET_CONVOLUTION=fast") == "1 none [SVNET_CONVOLUTION] 'fast' is neither direct nor winograd\n");
+  CHECK(load_with("SVNET_PRECISION=f32 SVNET_CONVOLUTION=direct") == "0 model \n");
 }

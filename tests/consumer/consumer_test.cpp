@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/environment.h"
 #include "io/images/image_file.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
@@ -168,9 +169,9 @@ TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 ima
   const fs::path prefix = folder.path() / "prefix";
   output_of(folder, CMAKE " --install " BUILD_FOLDER " --prefix " + prefix.string());
   const std::vector<std::string> commands = programs(built_project(folder, prefix));
-  const char* trained = std::getenv("SVNET_ETH80_MODEL");
-  const std::string model = trained != nullptr ? trained : (folder.path() / "model.safetensors").string();
-  if (trained == nullptr) write_model(model, eth80_model(weights));
+  const std::string trained = environment_variable("SVNET_ETH80_MODEL");
+  const std::string model = !trained.empty() ? trained : (folder.path() / "model.safetensors").string();
+  if (trained.empty()) write_model(model, eth80_model(weights));
 
   const ViewDataset dataset = read_view_dataset(data);
   REQUIRE(dataset.poses.size() >= 20);

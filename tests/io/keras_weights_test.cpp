@@ -1,11 +1,11 @@
 #include "io/keras/keras_weights.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <limits>
 
 #include "base/error.h"
 #include "io/hdf5/hdf5_file.h"
+#include "shared_folder.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -237,9 +237,8 @@ TEST_CASE("Keras 3 weights with a missing layer are refused") {
 }
 
 TEST_CASE("a real MobileNetV2 is read completely") {
-  const char* shared = std::getenv("SVNET_SHARED");
-  const std::filesystem::path path = std::filesystem::path(shared ? shared : SVNET_SOURCE_DIR "/../shared") /
-                                     "weights" / "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5";
+  const std::filesystem::path path =
+      shared_folder("weights/mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5");
   if (!std::filesystem::exists(path)) {
     WARN("skipped: " << path.string() << " is absent");
     return;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 
 #include "base/instruction_sets.h"
@@ -119,7 +118,7 @@ TEST_CASE("a compiled graph computes its layers, for any output layer") {
        {runtime::Convolution::automatic, runtime::Convolution::direct, runtime::Convolution::winograd})
     for (NodeId output = 0; output <= graph.output(); ++output) {
       INFO("output " << graph.node(output).name << ", convolution " << static_cast<int>(convolution));
-      const Inference compiled(graph, parameters, output, convolution);
+      const Inference compiled(graph, parameters, output, {.convolution = convolution});
       CHECK(relative_distance(compiled.run({kImages}), infer(graph, parameters, {kImages}, {output})[0]) <= 5e-6);
     }
 }
@@ -162,7 +161,7 @@ TEST_CASE("compiled squeeze and excitation computes its layers, for any output l
 
 TEST_CASE("compiling fuses layers that have one reader") {
   const Graph graph = all_layers();
-  const auto program = runtime::compile(graph, drawn(graph), graph.output(), runtime::Convolution::automatic);
+  const auto program = runtime::compile(graph, drawn(graph), graph.output(), {});
   std::vector<std::string> layers;
   for (const auto& step : program.steps) layers.push_back(step.layer);
   CHECK(layers == std::vector<std::string>{"conv",
@@ -222,17 +221,21 @@ TEST_CASE("several threads may run one compiled graph") {
   for (const Tensor& result : results) CHECK(same_bits(result, expected));
 }
 
-TEST_CASE("SVNET_CONVOLUTION forces a kind of convolution in training, too") {
+TEST_CASE("an option forces a kind of convolution in training, too") {
   const Tensor x = random_tensor({1, 8, 8, 16}, 1, DType::f32), w = random_tensor({3, 3, 16, 16}, 2, DType::f32);
-  const auto trained = [&](const char* word) {
-    ::setenv("SVNET_CONVOLUTION", word, 1);
-    return ops::conv2d(x, w, {});
+  const auto trained = [&](kernels::Convolution convolution) {
+    return ops::conv2d(x, w, {.convolution = convolution});
   };
-  CHECK_FALSE(same_bits(trained("direct"), trained("winograd")));
-  ::setenv("SVNET_CONVOLUTION", "fast", 1);
-  CHECK_THROWS_WITH(kernels::convolution_from_environment(),
-                    "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
-  ::unsetenv("SVNET_CONVOLUTION");
+  CHECK_FALSE(same_bits(trained(kernels::Convolution::direct), trained(kernels::Convolution::winograd)));
+  CHECK(same_bits(trained(kernels::Convolution::automatic), trained(kernels::Convolution::winograd)));
+
+  Graph graph;
+  graph.add("conv", Conv2dLayer{.filters = 16, .kh = 3, .kw = 3}, {graph.input("image", {8, 8, 16})});
+  Parameters parameters = initial_parameters(graph, 1);
+  const auto step = [&](kernels::Convolution convolution) {
+    return train(graph, parameters, {x}, {graph.output()}, {.convolution = convolution})[0];
+  };
+  CHECK_FALSE(same_bits(step(kernels::Convolution::direct), step(kernels::Convolution::winograd)));
 }
 
 TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for any batch and number of threads") {
@@ -247,7 +250,7 @@ TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for 
        {"conv", "sum_act", "after_sum", "expand", "shortcut", "doubled", "join", "dense", "chances"}) {
     INFO(name);
     const auto compiled = [&](runtime::Precision precision) {
-      return Inference(graph, parameters, graph.find(name), runtime::Convolution::automatic, precision);
+      return Inference(graph, parameters, graph.find(name), {.precision = precision});
     };
     const Inference coarse = compiled(runtime::Precision::bf16);
     Tensor first;
@@ -268,31 +271,29 @@ TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for 
   }
 }
 
-TEST_CASE("SVNET_PRECISION chooses bf16 if the machine has it") {
+TEST_CASE("an option chooses bf16 if the machine has it") {
   const Graph graph = all_layers();
-  const auto made = [&](const char* word) {
-    ::setenv("SVNET_PRECISION", word, 1);
-    return Inference(graph, drawn(graph), graph.output());
+  const auto made = [&](const InferenceOptions& options) {
+    return Inference(graph, drawn(graph), graph.output(), options);
   };
-  CHECK_THROWS_WITH(made("half"), "[SVNET_PRECISION] 'half' is neither f32 nor bf16");
-  for (const char* word : {"", "f32"}) {
-    const Inference plain = made(word);
+  const InferenceOptions bf16{.precision = runtime::Precision::bf16};
+  for (const InferenceOptions& options : {InferenceOptions{}, InferenceOptions{.precision = runtime::Precision::f32}}) {
+    const Inference plain = made(options);
     CHECK(plain.precision() == runtime::Precision::f32);
     for (const StepReport& step : plain.report(1)) CHECK(step.kernel.find("bf16") == std::string::npos);
   }
   if (kernels::machine_has_bf16()) {
     std::vector<std::string> kernels;
-    for (const StepReport& step : made("bf16").report(1)) kernels.push_back(step.kernel);
+    for (const StepReport& step : made(bf16).report(1)) kernels.push_back(step.kernel);
     for (const char* kernel : {"bf16 gemm 1x1", "depthwise 3x3 + bf16 gemm", "winograd 3x3", "implicit gemm 3x3"})
       CHECK(std::count(kernels.begin(), kernels.end(), kernel) > 0);
     for_instruction_sets([&](const std::string& name) {
       if (!name.starts_with("AVX3"))
-        CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
+        CHECK_THROWS_WITH(made(bf16), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
     });
   } else {
-    CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs a processor with AVX512-BF16"));
+    CHECK_THROWS_WITH(made(bf16), Catch::Contains("bf16 needs a processor with AVX512-BF16"));
   }
-  ::unsetenv("SVNET_PRECISION");
 }
 
 TEST_CASE("a compiled graph says what is wrong with its inputs") {

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -59,9 +58,6 @@ void work(const std::string& what, const std::string& file, Console& console) {
   } else if (what == "hangup") {
     std::raise(SIGHUP);
     progress("after it", 1, 1, 0);
-  } else if (what == "openblas") {
-    const char* core = std::getenv("OPENBLAS_CORETYPE");
-    console.result(core != nullptr ? core : "none");
   } else if (what == "hang") {
     console.result("ready");
     std::cout.flush();
@@ -74,7 +70,7 @@ void work(const std::string& what, const std::string& file, Console& console) {
 int main(int argc, char** argv) {
   Command command("svnet-probe", "Does what it is told.", "svnet-probe result\nsvnet-probe log log.txt");
   std::string what, file;
-  command.app().add_option("WHAT", what, "What to do")->required();
-  command.app().add_option("FILE", file, "A file");
+  command.add("WHAT", what, "What to do").required();
+  command.add("FILE", file, "A file");
   return command.run(argc, argv, [&](Console& console) { work(what, file, console); });
 }

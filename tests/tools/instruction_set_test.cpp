@@ -91,6 +91,28 @@ TEST_CASE("SVNET_MAX_ISA: svnet-info prints the instruction set in use") {
   CHECK_THAT(place.output_of("svnet-info"), Catch::Contains("\nkernels: " + instruction_sets().front() + " "));
 }
 
+TEST_CASE("svnet-info names the kernels of OpenBLAS, which OPENBLAS_CORETYPE chooses and SVNET_MAX_ISA does not") {
+  const Workplace place;
+  const auto openblas_line = [&](const std::string& variables) {
+    const std::string text = place.output_of("env -u OPENBLAS_CORETYPE " + variables + " svnet-info");
+    const auto begin = text.find("matrix products of OpenBLAS: ");
+    REQUIRE(begin != std::string::npos);
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  CHECK_THAT(openblas_line("OPENBLAS_CORETYPE=Prescott"), Catch::Contains(": Prescott "));
+  CHECK(openblas_line("SVNET_MAX_ISA=" + instruction_sets().back()) == openblas_line(""));
+}
+
+TEST_CASE("wrong words in the environment are errors") {
+  const Workplace place;
+  const auto error_of = [&](const std::string& variable) {
+    return place.run(variable + " svnet-predict model.safetensors --image top.png").err;
+  };
+  CHECK(error_of("SVNET_PRECISION=half") == "svnet-predict: [SVNET_PRECISION] 'half' is neither f32 nor bf16\n");
+  CHECK(error_of("SVNET_CONVOLUTION=fast") ==
+        "svnet-predict: [SVNET_CONVOLUTION] 'fast' is neither direct nor winograd\n");
+}
+
 TEST_CASE("SVNET_MAX_ISA: all instruction sets agree to 1e-4") {
   const Workplace place;
   const std::vector<std::string> sets = instruction_sets();

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
 
+#include "base/environment.h"
 #include "io/tensors/safetensors.h"
 #include "models/sv_net.h"
 #include "models/trained_graph.h"
@@ -69,8 +69,8 @@ class Recording {
 
  private:
   static std::filesystem::path folder() {
-    const char* given = std::getenv("SVNET_TRAINING_FIXTURES");
-    return given != nullptr ? given : SVNET_SOURCE_DIR "/tests/fixtures/training";
+    const std::string given = environment_variable("SVNET_TRAINING_FIXTURES");
+    return !given.empty() ? given : SVNET_SOURCE_DIR "/tests/fixtures/training";
   }
 
   template <class T>

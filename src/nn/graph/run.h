@@ -3,6 +3,7 @@
 
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
+#include "nn/kernels/convolution_choice.h"
 
 namespace svnet {
 
@@ -15,6 +16,7 @@ struct TrainingContext {
   /// If set: all its processes run the same step, and each computes a share of the products of dense layers, forward
   /// and backward.
   Communicator* communicator = nullptr;
+  kernels::Convolution convolution = kernels::Convolution::automatic;
 };
 
 /// Runs the layers that `outputs` depend on and returns the values of `outputs`, in their order. `inputs` are batches

@@ -4,8 +4,7 @@
 
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
-#include "nn/kernels/convolution_choice.h"
-#include "nn/kernels/precision.h"
+#include "nn/runtime/inference_options.h"
 #include "nn/runtime/step.h"
 
 namespace svnet::runtime {
@@ -35,7 +34,6 @@ using kernels::Precision;
 /// Compiles the layers that `output` depends on. Batch norms are folded. Padding, activations, additions, pooling and
 /// the pointwise half of separable convolutions are fused into the convolution beside them, unless another layer reads
 /// the value between them. Throws Error if parameters are not f32 or the machine lacks the precision.
-Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution,
-                Precision precision = Precision::f32);
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options);
 
 }  // namespace svnet::runtime

@@ -50,8 +50,8 @@ class PackedConvolution : public Step {
   std::string kernel() const override {
     return joined(window_.reads_in_place() ? gemm_text(weights_) : implicit_text(weights_), " ", size_text(window_));
   }
-  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.k * weights_.n); }
-  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.depth * weights_.n); }
+  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.depth * weights_.n); }
+  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.panel_rows * weights_.n); }
 
  private:
   Window window_;
@@ -108,7 +108,7 @@ class Separable : public Step {
     return 2.0 * static_cast<double>(window_.positions() * window_.c * (window_.kh * window_.kw + weights_.n));
   }
   double weight_bytes() const override {
-    return 4.0 * static_cast<double>(window_.c * window_.kh * window_.kw + weights_.depth * weights_.n);
+    return 4.0 * static_cast<double>(window_.c * window_.kh * window_.kw + weights_.panel_rows * weights_.n);
   }
 
  protected:
@@ -132,14 +132,14 @@ class ExpandedSeparable : public Separable {
                               weights_, packed_finish(finish_, b), b.output, b.scratch);
   }
   Index scratch(Index, int threads) const override {
-    return expanded_separable_scratch(window_, threads, expansion_.k, weights_.precision);
+    return expanded_separable_scratch(window_, threads, expansion_.depth, weights_.precision);
   }
   std::string kernel() const override { return joined(gemm_text(expansion_), " + ", Separable::kernel()); }
   double flops() const override {
-    return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.k * expansion_.n);
+    return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.depth * expansion_.n);
   }
   double weight_bytes() const override {
-    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.depth * expansion_.n);
+    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.panel_rows * expansion_.n);
   }
 
  private:

@@ -77,14 +77,9 @@ class Inference::ArenaLease {
   std::unique_ptr<Arena> arena_{};
 };
 
-Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output)
-    : Inference(graph, parameters, output, kernels::convolution_from_environment(),
-                kernels::precision_from_environment()) {}
-
-Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
-                     runtime::Precision precision)
-    : precision_(precision),
-      program_(runtime::compile(graph, parameters, output, convolution, precision)),
+Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options)
+    : precision_(options.precision),
+      program_(runtime::compile(graph, parameters, output, options)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}
 

@@ -28,10 +28,8 @@ struct StepReport {
 /// per sample.
 class Inference {
  public:
-  /// With the kernels and the precision that the environment asks for. Throws Error if parameters are not f32.
-  Inference(const Graph& graph, const Parameters& parameters, NodeId output);
-  Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
-            runtime::Precision precision = runtime::Precision::f32);
+  /// Throws Error if parameters are not f32, or the machine lacks the precision.
+  Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options = {});
 
   ~Inference();
   Inference(const Inference&) = delete;

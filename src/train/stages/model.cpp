@@ -57,9 +57,10 @@ std::unique_ptr<ViewInputs> training_inputs(const Run& run, FeaturesStage& featu
   if (std::holds_alternative<InputLayer>(graph.node(from).layer))
     return std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(), nullptr,
                                            PictureInputs::Options{.orientations = orientations});
-  auto inputs = std::make_unique<PictureInputs>(
-      run.dataset, backbone.preprocessing(), std::make_shared<Inference>(graph, backbone.parameters(), from),
-      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
+  auto inputs =
+      std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(),
+                                      std::make_shared<Inference>(graph, backbone.parameters(), from, run.inference),
+                                      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
   std::vector<Index> top_views;
   for (const auto& pose : run.dataset.poses)
     if (!run.held_out[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
@@ -97,6 +98,7 @@ std::optional<Checkpoint> resumed_checkpoint(const Run& run, const CheckpointFil
 void train_into(Model& model, const Run& run, const Graph& graph, const TrainingSet& training,
                 const TrainingSet* validation, Resume resume) {
   TrainerOptions options = trainer_options(run.config, model.input_fingerprint);
+  options.convolution = run.inference.convolution;
   options.schedule = learning_rate_schedule(run.config, batch_count(options.batch_size, training.size()));
   Trainer trainer(graph, training, validation, options, run.communicator);
   const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
