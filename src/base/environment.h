@@ -9,6 +9,7 @@
 //   SVNET_PRECISION    f32 or bf16 (nn/runtime/inference_options.h)
 //   SVNET_CONVOLUTION  direct or winograd (likewise)
 //   TERM               whether progress is drawn as a bar
+//   TMPDIR             the folder for temporary files, for messages: the standard library reads it
 //   OMPI_COMM_WORLD_SIZE, PMIX_RANK, PMI_RANK: set by MPI launchers
 // OPENBLAS_CORETYPE, which chooses the kernels of OpenBLAS, is read by OpenBLAS itself.
 namespace svnet {

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/environment.h"
 #include "base/error.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
@@ -47,10 +48,12 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
   return sample;
 }
 
-std::filesystem::path temporary_folder() try {
-  return std::filesystem::temp_directory_path();
-} catch (const std::filesystem::filesystem_error& error) {
-  fail(error.path1().string(), ": is no folder for temporary files; set TMPDIR to one");
+std::filesystem::path temporary_folder() {
+  std::error_code error;
+  const auto folder = std::filesystem::temp_directory_path(error);
+  const std::string given = environment_variable("TMPDIR");
+  check(!error, given.empty() ? "/tmp" : given, ": is no folder for temporary files; set TMPDIR to one");
+  return folder;
 }
 
 /// A folder of its own under the system's folder for temporary files, which the destructor removes.
