@@ -1,7 +1,10 @@
 // svnet-render: a collection of views in simulation, as a robot with an RGB-D camera would make it.
 #include <algorithm>
+#include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <utility>
 
 #include "base/parallel.h"
 #include "base/text.h"
@@ -31,7 +34,7 @@ struct Options {
   std::vector<std::string> categories;
   Index objects = kDesigns, poses = 3, size = 224;
   std::uint64_t seed = 1;
-  double metres_per_unit = 1;
+  std::optional<double> metres_per_unit;  // none: by the size of each mesh
 };
 
 /// Whether the object reaches the border of the picture.
@@ -52,17 +55,60 @@ struct Collected {
   std::vector<TakenView> views;
 };
 
+/// A mesh and how it may lie.
+struct RestingMesh {
+  Mesh mesh;
+  std::vector<RestingPose> resting;
+};
+
+/// An object while its poses are collected: made for the first of them, which may be any, and let go after the last.
+class ObjectInWork {
+ public:
+  /// Makes it once. None where that throws Error, whose text is the problem then.
+  template <class Make>
+  std::shared_ptr<const RestingMesh> take(Make make) {
+    const std::lock_guard lock(mutex_);
+    if (!is_made_) {
+      is_made_ = true;
+      try {
+        mesh_ = std::make_shared<const RestingMesh>(make(lines_));
+      } catch (const Error& error) {
+        problem_ = error.what();
+      }
+    }
+    return mesh_;
+  }
+
+  /// After each pose; after the last of `poses` the mesh is let go.
+  void count_pose(Index poses) {
+    const std::lock_guard lock(mutex_);
+    if (++collected_ == poses) mesh_.reset();
+  }
+
+  /// While nobody takes it.
+  const std::string& problem() const { return problem_; }
+  std::vector<std::string> take_lines() { return std::exchange(lines_, {}); }
+
+ private:
+  std::mutex mutex_;
+  bool is_made_ = false;
+  Index collected_ = 0;
+  std::shared_ptr<const RestingMesh> mesh_;
+  std::string problem_;
+  std::vector<std::string> lines_;
+};
+
 /// Lays the object down, finds it and takes its views. Throws Error where it is not found, or not all of it.
-Collected try_to_collect(const Mesh& mesh, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
-  const PosedObject posed = pose_object(mesh, pose, seed, number);
-  const Overview overview = take_overview(posed, seed, number);
+Collected try_to_collect(const RestingMesh& object, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
+  const PosedObject posed = pose_object(object.mesh, object.resting, pose, seed, number);
+  const Scene scene(&object.mesh, posed.object_to_world, posed.setting);
+  const Overview overview = take_overview(posed, scene, seed, number);
   Collected result{
       posed,
       overview,
       localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
                {overview.current.rgb, overview.current.depth}),
       {}};
-  const Scene scene(&mesh, posed.object_to_world, posed.setting);
   for (std::size_t view = 0; view < posed.views.size(); ++view) {
     result.views.push_back(take_view(posed, scene, result.object, size, seed, number, view));
     check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
@@ -93,14 +139,14 @@ struct Entry {
 /// Collects a pose, again under another light and elsewhere where it fails, as a robot's keeper would: its views into
 /// `folder`, the rest into `extra`. After some failures it leaves the pose out, so that one that the camera cannot see
 /// does not cost the others.
-Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_t number, const fs::path& folder,
-              const fs::path& extra) {
+Entry collect(const RestingMesh& object, Index pose, const Options& options, std::uint32_t number,
+              const fs::path& folder, const fs::path& extra) {
   constexpr std::uint32_t kTries = 16;
   std::optional<Collected> found;
   std::uint32_t tries = 0;
   while (!found) {
     try {
-      found = try_to_collect(mesh, pose, options.size, options.seed * 1009 + tries++, number);
+      found = try_to_collect(object, pose, options.size, options.seed * 1009 + tries++, number);
     } catch (const Error& error) {
       if (tries == kTries) return {{}, {}, joined("not collected in ", kTries, " tries: ", error.what())};
     }
@@ -122,24 +168,42 @@ Entry collect(const Mesh& mesh, Index pose, const Options& options, std::uint32_
     write_grey_png(extra / (name + "_mask.png"), taken.shot.height, taken.shot.width, taken.shot.mask);
     names.push_back(name);
   }
-  const LocalisedObject& object = found->object;
-  return {Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
-               {"length_m", object.length_m},
-               {"width_m", object.width_m},
-               {"height_m", object.height_m},
-               {"radius_m", viewing_radius_m(view_camera(options.size), object.diagonal_m)},
+  const LocalisedObject& place = found->object;
+  return {Json{{"centre_m", {place.centre_m.x(), place.centre_m.y(), place.centre_m.z()}},
+               {"length_m", place.length_m},
+               {"width_m", place.width_m},
+               {"height_m", place.height_m},
+               {"radius_m", viewing_radius_m(view_camera(options.size), place.diagonal_m)},
                {"tries", tries},
                {"views", names}},
           resized_to_fit(fullest_view(*found), kSheetCell_px),
           {}};
 }
 
-/// Reads all meshes once: what is wrong with one of them is found before the work.
-void check_meshes(const std::vector<Source>& sources, const Options& options) {
-  if (options.meshes.empty()) return;
-  Parallel::shared().for_chunks(static_cast<Index>(sources.size()), 1, [&](Index i, Index, int) {
-    mesh_of(sources[static_cast<std::size_t>(i)], options.metres_per_unit, options.seed);
-  });
+/// The object of a source. Throws Error that begins with its file's name.
+RestingMesh object_of(const Source& source, const Options& options, std::vector<std::string>& lines) {
+  try {
+    RestingMesh object{
+        mesh_of(source, options.metres_per_unit, options.seed, [&](const std::string& line) { lines.push_back(line); }),
+        {}};
+    object.resting = resting_poses(object.mesh);
+    return object;
+  } catch (const Error& error) {
+    const std::string text = error.what(), file = source.file.string();
+    fail(text.starts_with(file) ? text : file + ": " + text);
+  }
+}
+
+/// "; 2 of 12 objects left out (mug/a, mug/b)", or nothing.
+std::string left_out_text(const std::vector<Source>& sources, std::vector<ObjectInWork>& objects) {
+  constexpr std::size_t kNamed = 10;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < sources.size(); ++i)
+    if (!objects[i].problem().empty()) names.push_back(sources[i].category + "/" + sources[i].object);
+  if (names.empty()) return "";
+  const std::size_t count = names.size();
+  if (count > kNamed) names.resize(kNamed), names.emplace_back("...");
+  return joined("; ", count, " of ", sources.size(), " objects left out (", joined_with(", ", names), ")");
 }
 
 void render(const Options& options, Console& console) {
@@ -151,7 +215,6 @@ void render(const Options& options, Console& console) {
   const auto total = static_cast<Index>(sources.size()) * options.poses;
   check(total < 0x10000, "there are ", total, " objects and poses, more than 65535; take fewer");
   FreshFolder folder(options.output);
-  check_meshes(sources, options);
   std::vector<Index> place_in_category(sources.size(), 0);
   for (std::size_t i = 1; i < sources.size(); ++i)
     if (sources[i].category == sources[i - 1].category) place_in_category[i] = place_in_category[i - 1] + 1;
@@ -159,7 +222,9 @@ void render(const Options& options, Console& console) {
     const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
     return fs::path(source.category) / source.object / std::to_string(number % options.poses + 1);
   };
+  const auto object_number = [&](Index number) { return static_cast<std::size_t>(number / options.poses); };
   std::vector<Entry> entries(static_cast<std::size_t>(total));
+  std::vector<ObjectInWork> objects(sources.size());
   Progress progress(console.messages(), "poses", total);
   // A few poses of each thread between two reports. Each is a piece of work of its own, with its own random numbers.
   const Index block = 4 * Parallel::shared().threads();
@@ -167,30 +232,43 @@ void render(const Options& options, Console& console) {
     const Index count = std::min(block, total - first);
     Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
       const Index number = first + begin, pose = number % options.poses;
-      const Source& source = sources[static_cast<std::size_t>(number / options.poses)];
+      const Source& source = sources[object_number(number)];
       const fs::path where = place_of(number);
-      try {
-        const Mesh mesh = mesh_of(source, options.metres_per_unit, options.seed);
-        Entry& entry = entries[static_cast<std::size_t>(number)];
-        entry = collect(mesh, pose, options, static_cast<std::uint32_t>(number), folder.path() / where,
-                        folder.path() / "_extra" / where);
-        if (place_in_category[static_cast<std::size_t>(number / options.poses)] * options.poses + pose >=
-            kSheetPictures)
-          entry.picture = {};
-      } catch (const Error& error) {
-        if (source.file.empty()) fail(where.string(), ": ", error.what());
-        const std::string text = error.what();
-        fail(text.starts_with(source.file.string()) ? text : source.file.string() + ": " + text);
-      }
+      ObjectInWork& in_work = objects[object_number(number)];
+      auto object = in_work.take([&](std::vector<std::string>& lines) { return object_of(source, options, lines); });
+      Entry& entry = entries[static_cast<std::size_t>(number)];
+      if (object == nullptr) return;
+      entry = collect(*object, pose, options, static_cast<std::uint32_t>(number), folder.path() / where,
+                      folder.path() / "_extra" / where);
+      if (place_in_category[object_number(number)] * options.poses + pose >= kSheetPictures) entry.picture = {};
+      object.reset();
+      in_work.count_pose(options.poses);
     });
-    for (Index number = first; number < first + count; ++number)
-      if (const Entry& entry = entries[static_cast<std::size_t>(number)]; !entry.problem.empty())
+    for (Index number = first; number < first + count; ++number) {
+      ObjectInWork& object = objects[object_number(number)];
+      Entry& entry = entries[static_cast<std::size_t>(number)];
+      for (const std::string& line : object.take_lines()) console.line(line);
+      if (!object.problem().empty()) {
+        entry.problem = object.problem();
+        if (number % options.poses == 0 && sources.size() > 1) console.line("left out: " + entry.problem);
+      } else if (!entry.problem.empty()) {
         console.line(joined("left out: ", place_of(number).string(), ": ", entry.problem));
+      }
+    }
     progress.update(first + count);
   }
   const auto left_out =
       std::count_if(entries.begin(), entries.end(), [](const Entry& e) { return !e.problem.empty(); });
-  check(left_out < total, "no pose was collected; the first, ", place_of(0).string(), ": ", entries.front().problem);
+  const auto poses_left_out =
+      left_out - options.poses * std::count_if(objects.begin(), objects.end(),
+                                               [](const ObjectInWork& object) { return !object.problem().empty(); });
+  const std::string objects_left_out = left_out_text(sources, objects);
+  if (left_out == total) {
+    const std::string& problem = entries.front().problem;
+    if (!objects.front().problem().empty())
+      fail(problem, sources.size() > 1 ? joined("; none of the ", sources.size(), " objects was collected") : "");
+    fail("no pose was collected; the first, ", place_of(0).string(), ": ", problem);
+  }
 
   Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options.seed}, {"size_px", options.size}};
   Index pictures = 0;
@@ -215,7 +293,8 @@ void render(const Options& options, Console& console) {
   write_atomically(folder.path() / "_extra" / "view_camera.json", camera_json({view_camera(options.size), {}}));
   folder.keep();
   console.result(joined(pictures, " pictures of ", total - left_out, " poses in ", options.output.string(),
-                        left_out > 0 ? joined("; ", left_out, " left out, as manifest.json tells") : ""));
+                        objects_left_out, poses_left_out > 0 ? joined("; ", poses_left_out, " left out") : "",
+                        left_out > 0 ? ", as manifest.json tells" : ""));
 }
 
 }  // namespace
@@ -245,9 +324,12 @@ int main(int argc, char** argv) {
   app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
       ->check(CLI::Range(Index{0}, Index{1} << 53));
   auto* meshes = app.add_option("--meshes", options.meshes,
-                                "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb)");
+                                "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb, "
+                                ".gltf), or CATEGORY/NAME/ with a mesh in it. A mesh that cannot be used is left out "
+                                "and named; the exit status is 1 only if no object is collected");
   app.add_option("--unit", options.metres_per_unit,
-                 "Metres per unit of the meshes (1); objects may be 1 mm to 1 m long")
+                 "Metres per unit of all meshes; objects may be 1 mm to 1 m long (default: metres; centimetres or "
+                 "millimetres for a mesh that only makes sense so, in a line of its own)")
       ->check(positive_number())
       ->needs(meshes);
   return command.run(argc, argv, [&](Console& console) { render(options, console); });

@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 
 #include "localise/localise.h"
 #include "simulation/mesh.h"
+#include "simulation/resting.h"
 #include "simulation/scene.h"
 #include "simulation/sensor.h"
 
@@ -21,6 +23,9 @@ struct PosedObject {
 /// Pose number `pose` of an object: each of its resting poses in turn, turned and moved at random. `number` < 2^16
 /// tells the object and pose apart from all others of a collection.
 PosedObject pose_object(const Mesh&, Index pose, std::uint64_t seed, std::uint32_t number);
+/// With its resting poses, which cost seconds where a mesh is large.
+PosedObject pose_object(const Mesh&, std::span<const RestingPose>, Index pose, std::uint64_t seed,
+                        std::uint32_t number);
 
 /// The camera of the overview: 640x480, 1 m above the table, looking down.
 Intrinsics overview_camera();
@@ -35,6 +40,8 @@ struct Overview {
   RgbdPicture background, current;
 };
 Overview take_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
+/// With the scene of the posed object.
+Overview take_overview(const PosedObject&, const Scene&, std::uint64_t seed, std::uint32_t number);
 
 /// Number `view` of object.views, from where the localised object asks for.
 struct TakenView {

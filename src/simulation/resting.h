@@ -23,7 +23,8 @@ struct RestingPose {
 /// The faces of the convex hull that carry the centre of mass by at least 2.5° of tilt. Faces on which the centre of
 /// mass is equally high are the same kind of pose (an upright can, head or foot; the sides of a bottle): first comes
 /// the best face of each kind, kinds with the largest share first, then the second best, and so on. Kinds with less
-/// than 8 % of all directions are left out, unless nothing else is there. At least one.
+/// than 8 % of all directions are left out, unless nothing else is there. At least one. Of a mesh of more than 32768
+/// points only those count that lie outermost in one of 4096 directions, which are within 0.05 % of its extent.
 std::vector<RestingPose> resting_poses(const Mesh&);
 
 }  // namespace svnet

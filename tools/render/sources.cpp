@@ -1,16 +1,15 @@
 #include "render/sources.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/views/dataset_folder.h"
 #include "simulation/catalogue.h"
-#include "simulation/collection.h"
 #include "simulation/meshes/mesh_file.h"
+#include "simulation/meshes/mesh_unit.h"
+#include "simulation/meshes/object_folder.h"
 
 namespace svnet {
 namespace {
@@ -60,37 +59,18 @@ std::vector<Source> sources_of_category(const fs::path& folder, const std::funct
   const std::string category = folder.filename().string();
   std::vector<Source> sources;
   std::map<std::string, fs::path> named;
-  for (const fs::path& file : named_entries(folder, is_mesh_name, say)) {
-    const std::string object = file.stem().string();
+  const auto is_meant = [](const fs::path& entry) { return fs::is_directory(entry) || is_mesh_name(entry); };
+  for (const fs::path& entry : named_entries(folder, is_meant, say)) {
+    const bool has_folder = fs::is_directory(entry);
+    const fs::path file = has_folder ? mesh_of_folder(entry, say) : entry;
+    if (file.empty()) continue;
+    const std::string object = has_folder ? entry.filename().string() : entry.stem().string();
     const auto [twin, is_first] = named.emplace(object, file);
     check(is_first, twin->second.string(), " and ", file.string(), ": both are the object '", object,
           "'; rename one of them");
-    sources.push_back({category, object, 0, file});
+    sources.push_back({category, object, 0, file, folder.parent_path()});
   }
   return sources;
-}
-
-std::string length_text(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, metres < 0.01 ? "%.3g mm" : "%.3g m", metres < 0.01 ? metres * 1000 : metres);
-  return text;
-}
-
-/// The usual unit in which an object of `units` would have the size of a household object.
-std::string unit_hint(double units) {
-  for (const double unit : {1.0, 0.001, 0.01})
-    if (units * unit >= 0.03 && units * unit <= 0.5)
-      return joined(" With --unit ", unit, " it would be ", length_text(units * unit), ".");
-  return "";
-}
-
-void check_size(const Mesh& mesh, const std::string& name, double metres_per_unit) {
-  Eigen::AlignedBox3f box;
-  for (const Vec3& point : mesh.points) box.extend(point);
-  const double length_m = box.sizes().cast<double>().maxCoeff();
-  check(length_m >= kSmallestObject_m && length_m <= kLargestObject_m, name, ": is ", length_text(length_m),
-        " long, objects may be ", length_text(kSmallestObject_m), " to ", length_text(kLargestObject_m),
-        "; is its unit right?", unit_hint(length_m / metres_per_unit));
 }
 
 }  // namespace
@@ -100,13 +80,13 @@ std::vector<Source> catalogue_sources(const std::vector<std::string>& categories
   std::vector<Source> sources;
   for (const std::string& name : categories.empty() ? catalogue_names() : categories)
     for (Index object = 0; object < objects; ++object)
-      sources.push_back({name, std::to_string(object + 1), object, {}});
+      sources.push_back({name, std::to_string(object + 1), object, {}, {}});
   return sources;
 }
 
 std::vector<Source> mesh_sources(const fs::path& folder, const std::vector<std::string>& categories,
                                  const std::function<void(const std::string&)>& say) {
-  constexpr const char* kExpected = "; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it";
+  constexpr const char* kExpected = "; expected CATEGORY/NAME.obj, .ply, .stl or .glb, or CATEGORY/NAME/*.obj, in it";
   const auto folders = named_entries(
       folder, [](const fs::path& entry) { return fs::is_directory(entry); }, say);
   std::vector<std::string> names;
@@ -126,11 +106,11 @@ std::vector<Source> mesh_sources(const fs::path& folder, const std::vector<std::
   return sources;
 }
 
-Mesh mesh_of(const Source& source, double metres_per_unit, std::uint64_t seed) {
+Mesh mesh_of(const Source& source, std::optional<double> unit, std::uint64_t seed,
+             const std::function<void(const std::string&)>& say) {
   if (source.file.empty()) return catalogue_object(source.category, source.design, seed);
-  Mesh mesh = read_mesh(source.file, metres_per_unit);
-  check_size(mesh, source.file.string(), metres_per_unit);
-  return mesh;
+  const auto unit_of = [&](double length) { return metres_per_unit(length, source.file.string(), unit, say); };
+  return read_mesh(source.file, {source.collection, unit_of, say});
 }
 
 }  // namespace svnet
