@@ -138,7 +138,7 @@ def obj(path, material="", polygons=TRIANGLES, points=POINTS, colours=None, mtll
     for i, point in enumerate(points):
         lines.append("v " + " ".join(f"{x:.9g}" for x in [*point, *(colours[i] if colours is not None else [])]))
     lines += [f"vt {u:.6f} {v:.6f}" for u, v in uv]
-    lines += ["f " + " ".join(f"{c + base}/{c + base}" for c in polygon) for polygon in polygons]
+    lines += ["f " + " ".join(f"{c + base}/{c + base}" if len(uv) else f"{c + base}" for c in polygon) for polygon in polygons]
     path.write_text("\n".join(lines) + "\n")
 
 
@@ -289,7 +289,7 @@ def cases(folder):
     quads = [[4 * side + k for k in ((0, 1, 2, 3) if side % 2 else (0, 3, 2, 1))] for side in range(6)]
     obj(add("quads.obj"), "newmtl paint\nKd 1 1 1\nmap_Kd fields.png\n", quads)
     obj(add("negative.obj", "texture_png.obj"), "newmtl paint\nKd 1 1 1\nmap_Kd fields.png\n", base=-24)
-    obj(add("vertex_colours.obj"), colours=COLOURS)
+    obj(add("vertex_colours.obj"), colours=COLOURS, uv=())
     obj(add("far.obj", "grey.obj", has_colour=False), points=POINTS + [500000, 4500000, 100])
     text = (thing / "far.obj").read_text().splitlines()
     far = ["v " + " ".join(f"{x:.9f}" for x in p) for p in POINTS + [500000, 4500000, 100]]

@@ -54,7 +54,8 @@ def surface(mesh, is_gltf):
             x = np.floor((uv[..., 0] % 1) * width).astype(int).clip(0, width - 1)
             y = np.floor(((1 - uv[..., 1]) % 1) * height).astype(int).clip(0, height - 1)
             colours = colours * linear(pixels[y, x] / 255)
-        per_point = visual.vertex_attributes.get("color") if is_gltf else None
+        attributes = visual.vertex_attributes
+        per_point = attributes["color"] if is_gltf and "color" in list(attributes.keys()) else None
     elif visual.kind == "face":
         return colours * linear(visual.face_colors[:, None, :3] / 255)
     else:
@@ -72,11 +73,11 @@ def oracle(path):
     total, area = np.zeros(3), 0
     for name in scene.graph.nodes_geometry:
         transform, geometry = scene.graph[name]
-        mesh = scene.geometry[geometry].copy()
-        mesh.apply_transform(transform)
+        mesh = scene.geometry[geometry]  # a copy would lose COLOR_0
         mean = levels(surface(mesh, path.suffix in (".glb", ".gltf"))).mean(axis=1)
-        total += (mean * mesh.area_faces[:, None]).sum(axis=0)
-        area += mesh.area
+        areas = trimesh.triangles.area(trimesh.transform_points(mesh.vertices, transform)[mesh.faces])
+        total += (mean * areas[:, None]).sum(axis=0)
+        area += areas.sum()
     return scene.extents, total / area
 
 
