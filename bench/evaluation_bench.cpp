@@ -48,13 +48,12 @@ void evaluation(benchmark::State& state) {
   }
   const DistanceMatrix first = random_distances(dataset, 1), second = random_distances(dataset, 2);
   const ClusteringProblems problems(category, object, pose);
-  const ClusteringOptions ward{.dimension = 2048},
-      kmeans{.method = ClusteringOptions::Method::kmeans, .dimension = 2048};
+  const ClusteringOptions ward{.dimension = 2048}, kmeans{.method = Clustering::kmeans, .dimension = 2048};
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(state.range(0))};
   for (auto _ : state)
     benchmark::DoNotOptimize(
         evaluate(dataset, problems, {{"a_ward", &first, ward}, {"a_kmeans", &first, kmeans}, {"b_ward", &second, ward}},
-                 {top_selector(dataset), random_selector(), best_selector("opt_ind", dataset, scores)}, options,
+                 {{"top", top_views(dataset)}, {"rand", {}}, {"opt_ind", best_views(dataset, scores)}}, options,
                  Parallel::shared(), {}, "")
             .problems);
 }

@@ -2,7 +2,7 @@
 // Counter: `flops` of one step.
 #include <benchmark/benchmark.h>
 
-#include "models/vgg.h"
+#include "models/registry.h"
 #include "nn/autograd.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
@@ -12,7 +12,7 @@ namespace svnet {
 namespace {
 
 void finetune(benchmark::State& state) {
-  const Graph graph = models::vgg19(224, false);
+  const Graph graph = backbone_kind("vgg19").graph(224, false);
   Parameters parameters = initial_parameters(graph, 1);
   const auto optimizer = sgd(trainable(graph, parameters));
   const Tensor images = initialised(Initializer::lecun_normal, {state.range(0), 224, 224, 3}, 1, 1000);

@@ -63,15 +63,14 @@ void distance_matrix(benchmark::State& state) {
 }
 
 const bool kRegistered = [] {
-  for (const auto linkage : {Linkage::ward, Linkage::average, Linkage::complete, Linkage::single})
-    benchmark::RegisterBenchmark(("problem/" + std::string(linkage_name(linkage))).c_str(), problem,
-                                 ClusteringOptions{.linkage = linkage})
+  for (const auto method : {Clustering::ward, Clustering::average, Clustering::complete, Clustering::single})
+    benchmark::RegisterBenchmark(("problem/" + std::string(name_of(method))).c_str(), problem,
+                                 ClusteringOptions{.method = method})
         ->Arg(16384)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
-  benchmark::RegisterBenchmark(
-      "problem/kmeans", problem,
-      ClusteringOptions{.method = ClusteringOptions::Method::kmeans, .dimension = Paper::kFeatures})
+  benchmark::RegisterBenchmark("problem/kmeans", problem,
+                               ClusteringOptions{.method = Clustering::kmeans, .dimension = Paper::kFeatures})
       ->Arg(2048)
       ->Unit(benchmark::kMillisecond)
       ->UseRealTime();

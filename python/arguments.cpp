@@ -134,14 +134,14 @@ Image image(const char* function, const py::object& given) {
   return {pixels.shape(0), pixels.shape(1), {pixels.data(), pixels.data() + pixels.size()}};
 }
 
-std::vector<Pose> camera_poses(const char* function, const py::object& given) {
+std::vector<CameraPose> camera_poses(const char* function, const py::object& given) {
   const py::array array = any_array(function, "angles_deg", given, "numbers (M, 2)");
   check_numbers(function, "angles_deg", array);
   check(array.ndim() == 2 && array.shape(1) == 2 && array.size() > 0, "[", function, "] angles_deg has shape ",
         shape_text(array), "; expects (M, 2), theta and phi of each pose in degrees, and at least one");
   const Array<double> angles(array);
-  std::vector<Pose> poses;
-  poses.reserve(static_cast<std::size_t>(angles.shape(0)));
+  std::vector<CameraPose> poses;
+  poses.reserve(angles.shape(0));
   for (py::ssize_t i = 0; i < angles.shape(0); ++i) {
     poses.push_back({angles.at(i, 0), angles.at(i, 1)});
     const std::string problem = pose_problem(poses.back());
@@ -185,7 +185,7 @@ Index count_of(const char* function, const char* argument, const py::object& giv
   const std::uint64_t value = whole_number(function, argument, given, lowest);
   check(value <= static_cast<std::uint64_t>(std::numeric_limits<Index>::max()), "[", function, "] ", argument, " is ",
         value, ", beyond 2^63 - 1");
-  return static_cast<Index>(value);
+  return value;
 }
 
 std::string text(const char* function, const char* argument, const py::object& given, const char* expected) {
@@ -204,7 +204,7 @@ std::string path(const char* function, const char* argument, const py::object& g
 }
 
 py::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels) {
-  py::array_t<std::int64_t> array(static_cast<py::ssize_t>(labels.size()));
+  py::array_t<std::int64_t> array(labels.size());
   std::copy(labels.begin(), labels.end(), array.mutable_data());
   return array;
 }

@@ -9,10 +9,12 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "base/enum_names.h"
 #include "base/index.h"
+#include "base/text.h"
 #include "image/image.h"
 #include "semantics/distances.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 // From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.
 // All of these need the GIL.
@@ -42,7 +44,7 @@ class GivenLabels {
  public:
   GivenLabels(const char* function, const char* argument, const pybind11::object& given);
 
-  std::span<const std::int64_t> values() const { return {values_.data(), static_cast<std::size_t>(values_.size())}; }
+  std::span<const std::int64_t> values() const { return std::span(values_.data(), values_.size()); }
 
  private:
   Array<std::int64_t> values_;
@@ -56,7 +58,7 @@ Image image(const char* function, const pybind11::object& given);
 
 /// Poses (M, 2), theta and phi in degrees, from any array-like of integers or floats; at least one, all in range.
 /// Throws Error for anything else, with the number of the pose.
-std::vector<Pose> camera_poses(const char* function, const pybind11::object& given);
+std::vector<CameraPose> camera_poses(const char* function, const pybind11::object& given);
 
 /// A Python or NumPy integer or float. Throws Error for anything else.
 double number(const char* function, const char* argument, const pybind11::object& given);
@@ -70,6 +72,16 @@ std::uint64_t whole_number(const char* function, const char* argument, const pyb
 /// The same in [lowest, 2^63).
 Index count_of(const char* function, const char* argument, const pybind11::object& given, std::uint64_t lowest = 1);
 
+/// The names of an enum as messages list them: "a", "b" or "c", in quotes.
+template <class Enum>
+std::string quoted_names() {
+  std::vector<std::string> names = names_of<Enum>();
+  for (std::string& name : names) name = '"' + name + '"';
+  const std::string last = names.back();
+  names.pop_back();
+  return joined_with(", ", names) + " or " + last;
+}
+
 /// A str, as UTF-8; lone surrogates are written as \udcff. Throws Error for anything else.
 std::string text(const char* function, const char* argument, const pybind11::object& given, const char* expected);
 
@@ -81,7 +93,7 @@ pybind11::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels
 
 template <class T>
 pybind11::array_t<T> array_of(std::span<const T> values) {
-  return pybind11::array_t<T>(static_cast<pybind11::ssize_t>(values.size()), values.data());
+  return pybind11::array_t<T>(values.size(), values.data());
 }
 
 }  // namespace svnet::python

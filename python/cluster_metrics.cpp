@@ -19,11 +19,11 @@ auto measured(const char* function, const py::object& given_true, const py::obje
 }
 
 NmiAverage average_named(const py::object& given) {
-  const std::string name = text("normalized_mutual_info", "average", given, R"("arithmetic" or "geometric")");
-  const std::vector<std::string> names{"arithmetic", "geometric"};
-  if (name == names[0]) return NmiAverage::arithmetic;
-  check(name == names[1], "[normalized_mutual_info] there is no average '", name, "'", suggestion(name, names));
-  return NmiAverage::geometric;
+  const std::string name = text("normalized_mutual_info", "average", given, quoted_names<NmiAverage>().c_str());
+  const auto found = find_enum<NmiAverage>(name);
+  check(found.has_value(), "[normalized_mutual_info] there is no average '", name, "'",
+        suggestion(name, names_of<NmiAverage>()));
+  return *found;
 }
 
 constexpr const char* kFowlkesMallowsDoc = R"(fowlkes_mallows(true, pred)

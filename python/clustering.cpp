@@ -1,3 +1,5 @@
+#include <numeric>
+
 #include "arguments.h"
 #include "base/error.h"
 #include "bindings.h"
@@ -10,8 +12,8 @@ namespace {
 namespace py = pybind11;
 
 std::vector<std::int32_t> all_rows(Index n) {
-  std::vector<std::int32_t> rows(static_cast<std::size_t>(n));
-  for (Index i = 0; i < n; ++i) rows[static_cast<std::size_t>(i)] = static_cast<std::int32_t>(i);
+  std::vector<std::int32_t> rows(n);
+  std::iota(rows.begin(), rows.end(), 0);
   return rows;
 }
 
@@ -61,7 +63,7 @@ py::array_t<std::int64_t> agglomerated(const char* function, const py::object& g
                                        Linkage linkage) {
   const GivenFeatures features(function, given);
   const Index k = count_of(function, "n_clusters", n_clusters);
-  std::vector<std::int32_t> labels(static_cast<std::size_t>(features.rows()));
+  std::vector<std::int32_t> labels(features.rows());
   {
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
@@ -78,7 +80,7 @@ py::array_t<std::int64_t> ward(const py::object& features, const py::object& n_c
 py::array_t<std::int64_t> agglomerative(const py::object& features, const py::object& n_clusters,
                                         const py::object& linkage) {
   constexpr const char* kFunction = "agglomerative";
-  const std::string name = text(kFunction, "linkage", linkage, R"("ward", "average", "complete" or "single")");
+  const std::string name = text(kFunction, "linkage", linkage, quoted_names<Linkage>().c_str());
   return agglomerated(kFunction, features, n_clusters, linkage_named(name));
 }
 
@@ -114,7 +116,7 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
   const std::uint64_t seed = whole_number("kmeans", "seed", given_seed);
   // Before memory is made for k clusters.
   check(k <= n, "[kmeans] cannot make ", k, " clusters of ", n, " points; 1 to ", n, " are possible");
-  std::vector<std::int32_t> labels(static_cast<std::size_t>(n));
+  std::vector<std::int32_t> labels(n);
   double inertia;
   {
     const Computing computing;

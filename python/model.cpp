@@ -63,7 +63,7 @@ Raises svnet.Error as score does.
 std::vector<float> scores(const Predictor& self, const char* function, const py::object& given_image,
                           const py::object& given_angles) {
   const Image top = image(function, given_image);
-  const std::vector<Pose> poses = camera_poses(function, given_angles);
+  const std::vector<CameraPose> poses = camera_poses(function, given_angles);
   const Computing computing;
   const Tensor features = self.embed(top);
   std::vector<float> result;

@@ -26,7 +26,7 @@ bit. The default is SVNET_THREADS, else the number of CPUs that the process may 
 
 /// What is not UTF-8 in a message, such as the bytes of a path, is written as \xff.
 void raise_error(const py::object& type, const std::string& message) {
-  const auto size = static_cast<py::ssize_t>(message.size());
+  const py::ssize_t size = message.size();
   const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(message.data(), size, "backslashreplace"));
   if (text) PyErr_SetObject(type.ptr(), text.ptr());
 }
@@ -49,7 +49,7 @@ void bind_error(py::module_& module) {
 }
 
 void set_threads(const py::object& n) {
-  svnet::python::set_threads(static_cast<int>(svnet::python::whole_number("set_threads", "n", n, 1, 1024)));
+  svnet::python::set_threads(svnet::python::whole_number("set_threads", "n", n, 1, 1024));
 }
 
 }  // namespace

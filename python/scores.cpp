@@ -13,12 +13,11 @@ namespace {
 namespace py = pybind11;
 
 Singletons singletons_named(const py::object& given) {
-  const std::string name = text("semantic_scores", "singletons", given, R"("zero" or "skip")");
-  const std::vector<std::string> names{"zero", "skip"};
-  if (name == names[0]) return Singletons::zero;
-  check(name == names[1], "[semantic_scores] there is no treatment of singletons '", name, "'",
-        suggestion(name, names));
-  return Singletons::skip;
+  const std::string name = text("semantic_scores", "singletons", given, quoted_names<Singletons>().c_str());
+  const auto found = find_enum<Singletons>(name);
+  check(found.has_value(), "[semantic_scores] there is no treatment of singletons '", name, "'",
+        suggestion(name, names_of<Singletons>()));
+  return *found;
 }
 
 ScoreOptions options_from(const py::object& problems, const py::object& min_samples, const py::object& seed,

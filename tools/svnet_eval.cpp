@@ -2,7 +2,11 @@
 #include "command/command.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
-#include "train/run.h"
+#include "train/stages/contact_sheet.h"
+#include "train/stages/evaluation.h"
+#include "train/stages/model.h"
+#include "train/stages/predictions.h"
+#include "train/stages/scores.h"
 
 namespace {
 
@@ -16,6 +20,19 @@ std::vector<fs::path> files_of_run(const fs::path& folder, const fs::path& confi
   return files;
 }
 
+std::vector<std::string> selector_names() {
+  std::vector<std::string> names;
+  for (const svnet::SelectorKind& kind : svnet::selector_kinds()) names.emplace_back(kind.name);
+  return names;
+}
+
+std::string selectors_help() {
+  std::string help = "Selectors of the tables, separated by commas (default: evaluation.selectors)";
+  for (const svnet::SelectorKind& kind : svnet::selector_kinds())
+    help += std::string("; ") + kind.name + ": " + kind.help;
+  return help;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -26,6 +43,7 @@ int main(int argc, char** argv) {
       "and views.png: pictures of held-out objects from above, from where SV-net looks, and from the best view.",
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
+  std::vector<std::string> selectors;
   Index problems = 0;
   command.app()
       .add_option("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>")
@@ -33,6 +51,11 @@ int main(int argc, char** argv) {
   command.app()
       .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
       ->check(CLI::Range(Index{1}, Index{1} << 53));
+  command.app()
+      .add_option("--selectors", selectors, selectors_help())
+      ->delimiter(',')
+      ->check(CLI::IsMember(selector_names()))
+      ->type_name("NAMES");
   command.app().add_option("--json", json, "Writes evaluation.json here too")->type_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
@@ -41,18 +64,24 @@ int main(int argc, char** argv) {
       check(fs::exists(source / "config.yaml"), source.string(),
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const fs::path config_file = folder_given ? source / "config.yaml" : source;
-    const Config config = read_config(config_file);
+    Config config = read_config(config_file);
+    if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
-    Run run(config, std::move(dataset), folder, console.messages());
+    const Run run = make_run(config, std::move(dataset), folder, console.messages());
+    FeaturesStage features(run);
+    const Model model = trained_model(run, features);
+    const std::vector<double> predicted = predicted_scores(run, features, model);
+    const Scores scores = scores_stage(run, features);
+    const EvaluationInputs inputs{features, scores, predicted};
     const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);
-    const auto tables = run.evaluation(count, json.empty() ? std::optional<fs::path>() : json);
+    const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));
     console.result(table_text(tables.at("training"), "Training categories"));
-    if (const auto sheet = run.contact_sheet(count))
+    if (const auto sheet = contact_sheet_stage(run, inputs, count))
       console.result(joined("Views of held-out objects: ", sheet->string()));
   });
 }

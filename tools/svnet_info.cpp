@@ -6,8 +6,8 @@
 #include "base/text.h"
 #include "base/version.h"
 #include "command/command.h"
-#include "train/describe.h"
-#include "train/plan_text.h"
+#include "info/describe.h"
+#include "info/plan_text.h"
 
 namespace svnet {
 namespace {

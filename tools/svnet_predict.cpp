@@ -14,7 +14,7 @@ namespace {
 
 using namespace svnet;
 
-std::string table_text(const std::vector<Pose>& poses, const std::vector<float>& scores) {
+std::string table_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
   std::ostringstream text;
   text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
   for (const std::size_t i : best_first(scores))
@@ -24,7 +24,7 @@ std::string table_text(const std::vector<Pose>& poses, const std::vector<float>&
   return text.str();
 }
 
-std::string json_text(const std::vector<Pose>& poses, const std::vector<float>& scores) {
+std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
   nlohmann::ordered_json views = nlohmann::ordered_json::array();
   for (const std::size_t i : best_first(scores))
     views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});
@@ -58,7 +58,7 @@ int main(int argc, char** argv) {
       ->type_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file});
-    const std::vector<Pose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
+    const std::vector<CameraPose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
     const Predictor predictor(model);
     const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);
     if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));

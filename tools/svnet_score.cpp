@@ -4,13 +4,14 @@
 #include "command/command.h"
 #include "command/number_check.h"
 #include "command/openblas_cap.h"
+#include "data/scores_summary.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/features_file.h"
 #include "io/views/scores_file.h"
 #include "mpi/mpi_communicator.h"
-#include "train/scores_stage.h"
-#include "train/training_set.h"
+#include "train/dataset_rows.h"
+#include "train/stages/scores.h"
 
 namespace svnet {
 namespace {
@@ -56,12 +57,12 @@ int run(int argc, char** argv, Communicator& communicator) {
   problems->excludes(error);
   command.app()
       .add_option("--linkage", linkage, "How problems are clustered")
-      ->check(CLI::IsMember({"ward", "average", "complete", "single", "kmeans"}))
+      ->check(CLI::IsMember(names_of<Clustering>()))
       ->capture_default_str();
   command.app()
       .add_option("--singletons", singletons,
                   "A view without a partner of its category counts 0 (zero) or is left out (skip)")
-      ->check(CLI::IsMember({"zero", "skip"}))
+      ->check(CLI::IsMember(names_of<Singletons>()))
       ->capture_default_str();
   command.app()
       .add_option("--seed", config.seed, "Of the random problems")
@@ -89,8 +90,8 @@ int run(int argc, char** argv, Communicator& communicator) {
         auto& s = config.scores;
         if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
           wrong_usage("give one of --min-samples, --problems, --target-error");
-        s.clustering = clustering_from_name(linkage);
-        s.singletons = singletons == "zero" ? Config::Scores::Singletons::zero : Config::Scores::Singletons::skip;
+        s.clustering = enum_from_name<Clustering>("--linkage", linkage);
+        s.singletons = enum_from_name<Singletons>("--singletons", singletons);
         config.dataset.held_out = excluded;
         if (communicator.is_root()) check_can_be_written(output, {features_file});
         const ViewDataset dataset = read_view_dataset(dataset_folder);
@@ -105,9 +106,10 @@ int run(int argc, char** argv, Communicator& communicator) {
         check(fewest->empty() || s.min_categories <= available, "--min-categories: ", s.min_categories, ", but ",
               available, " categories take part");
         const Scores scores = make_scores(output, dataset, features, left_out, config, console.messages(),
-                                          {.resume = resume ? ScoresRun::Resume::any : ScoresRun::Resume::never,
+                                          {.resume = resume ? Resume::any : Resume::never,
                                            .snapshot_seconds = snapshot_seconds,
                                            .communicator = communicator});
+        if (communicator.is_root()) write_made_scores(output, scores);
         console.result(joined(output.string(), ": ", scores.problems, " problems"));
         console.result(certainty_text(scores));
       },

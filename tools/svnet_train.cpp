@@ -3,8 +3,11 @@
 #include "command/openblas_cap.h"
 #include "io/views/dataset_folder.h"
 #include "mpi/mpi_communicator.h"
-#include "train/run.h"
 #include "train/run_folder.h"
+#include "train/stages/dry_run.h"
+#include "train/stages/features.h"
+#include "train/stages/model.h"
+#include "train/stages/scores.h"
 
 namespace svnet {
 namespace {
@@ -46,8 +49,11 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
         check_run_folder(output, config.dataset.root);
         console.log_to(output / "log.txt");
-        Run run(config, std::move(dataset), output, console.messages(), communicator);
-        run.model(resume == "auto" ? Run::Resume::automatic : Run::Resume::never);
+        const Run run = make_run(config, std::move(dataset), output, console.messages(), communicator);
+        write_config(run);
+        FeaturesStage features(run);
+        const Scores scores = scores_stage(run, features);
+        model_stage(run, features, scores, resume == "auto" ? Resume::same : Resume::never);
         console.result((output / "model.safetensors").string());
       },
       communicator);

@@ -33,7 +33,7 @@ struct Options {
 };
 
 struct CameraView {
-  Pose pose;
+  CameraPose pose;
   Eigen::Isometry3d camera_to_world;
 };
 
@@ -130,18 +130,19 @@ void write_views(const Options& options, Console& console) {
   document["radius_m"] = radius_m;
   document["frame"] = name_of(frame);
 
-  std::vector<Pose> poses = paper_grid();
+  std::vector<CameraPose> poses = paper_grid();
   if (!options.poses.empty()) poses = read_pose_list(options.poses);
   if (options.fibonacci > 0) poses = fibonacci_half_sphere(options.fibonacci, options.lowest_phi_deg);
-  const Reachable reachable = options.reachable.empty() ? [](const Pose&, const Eigen::Isometry3d&) { return true; }
-                                                        : listed_poses(read_pose_list(options.reachable));
+  const Reachable reachable = options.reachable.empty()
+                                  ? [](const CameraPose&, const Eigen::Isometry3d&) { return true; }
+                                  : listed_poses(read_pose_list(options.reachable));
   std::vector<CameraView> views;
   std::vector<bool> reached;
   document["views"] = Json::array();
-  for (const Pose& pose : poses) {
-    reached.push_back(reachable(pose, camera_pose(pose, radius_m, centre, CameraFrame::optical)));
+  for (const CameraPose& pose : poses) {
+    reached.push_back(reachable(pose, look_at(pose, radius_m, centre, CameraFrame::optical)));
     if (!reached.back()) continue;
-    views.push_back({pose, camera_pose(pose, radius_m, centre, frame)});
+    views.push_back({pose, look_at(pose, radius_m, centre, frame)});
     Json entry;
     for (const auto& [name, value] : fields(views.back())) entry[name] = value;
     document["views"].push_back(std::move(entry));

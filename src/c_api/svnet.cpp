@@ -77,7 +77,7 @@ std::vector<float> scores_of(const char* function, const svnet_model* model, con
   check_given(features, function, "features");
   if (count == 0) return {};
   check_given(poses_deg, function, "poses_deg");
-  std::vector<Pose> poses;
+  std::vector<CameraPose> poses;
   if (count > poses.max_size()) throw std::bad_alloc();
   poses.reserve(count);
   for (std::size_t i = 0; i < count; ++i) poses.push_back({poses_deg[2 * i], poses_deg[2 * i + 1]});

@@ -14,7 +14,7 @@ struct FeaturesOrigin {
   std::string preprocessing;        // how an image becomes the model's input
   std::string weights_sha256;       // of the weights file
   std::string dataset_fingerprint;  // of the images
-  std::string input_fingerprint;    // of everything that the values depend on: features with the same one are the same
+  std::string input_fingerprint;    // of everything that the values depend on: equal fingerprints mean equal features
 };
 
 /// The features of every image of a dataset; row i belongs to paths[i].

@@ -7,19 +7,20 @@
 
 namespace svnet {
 
-/// SV-net with the backbone that feeds it: from a top image and camera poses to scores.
+/// A trained SV-net with its backbone: it scores camera poses for a top image.
 struct Model {
   std::string backbone;         // "mobilenet"
-  std::string backbone_output;  // the layer whose flattened output feeds the head
+  std::string backbone_output;  // the layer whose flattened output is the head's input
   Preprocessing preprocessing;  // of the top image
   Graph backbone_graph;
   Parameters backbone_parameters;
   AngleEncoding angles = AngleEncoding::radians;
-  // Of the top image, whose mean a score is: 1, as taken, or kOrientations, for which pictures must be square.
-  int orientations = 1;
+  /// A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as taken; kSymmetries: all, and
+  /// the preprocessed image must be square.
+  int symmetries = 1;
   Graph head;  // as sv_net() makes it
   Parameters head_parameters;
-  std::string input_fingerprint;  // of everything that the numbers depend on
+  std::string input_fingerprint;  // of everything that the parameters depend on
 };
 
 }  // namespace svnet

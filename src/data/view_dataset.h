@@ -8,6 +8,7 @@
 
 namespace svnet {
 
+/// One image of a pose. category, object and pose are indices into the dataset's lists.
 struct View {
   std::string path;  // relative to the root, with '/'
   Index category;
@@ -15,16 +16,17 @@ struct View {
   Index pose;
   int phi_deg;
   int theta_deg;
-  bool top;
+  bool top;  // whether it is the top view 90_90 of its pose
 };
 
-/// Categories, objects, poses and views are numbered from 0 over the whole data set, in natural order of their names
-/// within their parents, so that what belongs together is contiguous.
+/// The categories, objects, poses and views of a dataset. Each list is sorted by parent, then by name in natural order,
+/// so that the views of a pose, the poses of an object and so on are contiguous.
 struct ViewDataset {
   struct Object {
     std::string name;
     Index category;
   };
+  /// One placement of an object on the table, with its views: views[first_view, first_view + view_count).
   struct Pose {
     std::string name;
     Index object;
@@ -40,10 +42,10 @@ struct ViewDataset {
   std::vector<Pose> poses;
   std::vector<View> views;
 
-  /// The number of the top view of a pose.
+  /// The index of the top view of a pose.
   Index top_view(Index pose) const { return poses[static_cast<std::size_t>(pose)].top_view; }
   std::span<const View> views_of(Index pose) const;
-  /// "mug/2/1", for messages.
+  /// The path of a pose for messages, such as "mug/2/1".
   std::string pose_path(Index pose) const;
 };
 

@@ -5,8 +5,7 @@
 
 namespace svnet {
 
-/// Distances along the camera's axis in metres, (height, width), rows from the top; 0 where the camera measured
-/// nothing.
+/// Depth along the camera's optical axis in metres, (height, width), rows from the top. 0: not measured.
 struct DepthImage {
   Index height = 0;
   Index width = 0;

@@ -6,10 +6,10 @@
 
 namespace svnet {
 
-/// No picture that is read or taken may have more.
+/// The largest number of pixels of an image that is read.
 constexpr Index kMostPixels = 64'000'000;
 
-/// An 8-bit RGB picture: rgb is (height, width, 3), rows from the top without gaps.
+/// An 8-bit RGB image: rgb is (height, width, 3), rows from the top, contiguous.
 struct Image {
   Index height = 0;
   Index width = 0;

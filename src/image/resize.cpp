@@ -12,8 +12,8 @@ namespace {
 constexpr Index kChannels = 3;
 constexpr int kPrecisionBits = 22;  // 32, less 8 for the pixel and 2 for the sum of weights
 
-/// The source index of each target index. The position is summed up step by step, as Pillow does, so that ties fall
-/// alike.
+/// The source index of each target index. Positions are summed step by step as Pillow does, so that ties are rounded
+/// the same way.
 std::vector<Index> nearest_sources(Index from, Index to) {
   std::vector<Index> sources(static_cast<std::size_t>(to));
   const double step = static_cast<double>(from) / static_cast<double>(to);
@@ -36,8 +36,8 @@ Image resized_nearest(const Image& image, Index height, Index width) {
   return result;
 }
 
-/// The triangle filter along one axis: target i is the sum over t < counts[i] of weights[i * taps + t] · source
-/// [starts[i] + t], with weights in units of 2^-22 that add up to about 1.
+/// The triangle filter along one axis: target[i] = Σ weights[i * taps + t] · source[starts[i] + t] over t < counts[i].
+/// Weights are in units of 2^-22 and add up to about 1.
 struct Filter {
   Index taps;
   std::vector<Index> starts, counts;
@@ -118,15 +118,9 @@ Image with_height(const Image& image, Index height) {
 
 }  // namespace
 
-std::string name_of(Interpolation interpolation) {
-  return interpolation == Interpolation::nearest ? "nearest" : "bilinear";
-}
-
 Interpolation interpolation_named(std::string_view name) {
-  for (const Interpolation known : {Interpolation::nearest, Interpolation::bilinear})
-    if (name == name_of(known)) return known;
-  const std::vector<std::string> names{"nearest", "bilinear"};
-  fail("interpolation '", name, "' is not known", suggestion(name, names));
+  if (const auto interpolation = find_enum<Interpolation>(std::string(name))) return *interpolation;
+  fail("interpolation '", name, "' is not known", suggestion(name, names_of<Interpolation>()));
 }
 
 Image resized(const Image& image, Index height, Index width, Interpolation interpolation) {
@@ -136,7 +130,7 @@ Image resized(const Image& image, Index height, Index width, Interpolation inter
         "x", image.width, "x3 image has ", image.rgb.size(), " values, expected ",
         image.height * image.width * kChannels);
   if (interpolation == Interpolation::nearest) return resized_nearest(image, height, width);
-  // A side that stays is not filtered; as in Pillow, that changes no pixel.
+  // A side that keeps its length needs no filter, which would not change a pixel.
   if (image.width == width) return image.height == height ? image : with_height(image, height);
   return image.height == height ? with_width(image, width) : with_height(with_width(image, width), height);
 }

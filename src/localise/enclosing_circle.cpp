@@ -1,4 +1,4 @@
-#include "enclosing_circle.h"
+#include "localise/enclosing_circle.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 namespace svnet {
 namespace {
 
-/// Points along the rim of the convex hull, evenly.
+/// Points along the rim of the convex hull, about `spacing` apart.
 std::vector<cv::Point2d> rim(const std::vector<cv::Point2f>& points, double spacing) {
   std::vector<cv::Point2f> hull;
   cv::convexHull(points, hull);
@@ -20,7 +20,7 @@ std::vector<cv::Point2d> rim(const std::vector<cv::Point2f>& points, double spac
   return result;
 }
 
-/// The soft radius log Σ exp(|p - c|) around a centre, its gradient and its second derivatives, in units of softness.
+/// The soft radius log Σ exp(|p - c|) around a centre c, its gradient and second derivatives, in units of softness.
 struct SoftRadius {
   double value = 0;
   cv::Vec2d gradient;

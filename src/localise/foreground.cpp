@@ -1,4 +1,4 @@
-#include "foreground.h"
+#include "localise/foreground.h"
 
 #include <algorithm>
 #include <array>
@@ -28,7 +28,8 @@ cv::Mat3f linear(const cv::Mat3b& rgb, double sigma) {
   return light;
 }
 
-/// How the light changed, per channel: the median ratio, which an object that covers less than half does not move.
+/// The change of the light per channel: the median ratio, on which an object has little influence if it covers less
+/// than half of the picture.
 cv::Vec3f light_change(const cv::Mat3f& before, const cv::Mat3f& after) {
   cv::Vec3f change;
   for (int c = 0; c < 3; ++c) {
@@ -40,7 +41,7 @@ cv::Vec3f light_change(const cv::Mat3f& before, const cv::Mat3f& after) {
   return change;
 }
 
-/// The mean of a depth picture over 9x9 pixels, without holes and those on the other side of a step.
+/// The mean depth over 9x9 pixels. Pixels that were not measured or lie beyond a step in depth do not count.
 cv::Mat1f smooth_depth(const cv::Mat1f& depth) {
   constexpr int kReach = 4;
   constexpr float kStep_m = 0.008f;
@@ -72,10 +73,10 @@ cv::Mat1f measured_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
   return rise;
 }
 
-/// The mean of a rise over the 9x9 pixels that have the pixel's own colour, up to the noise: along a thin part, or a
-/// shadow, but not across its edge. A hole has to be filled: the neighbours that rose and those that did not vote, and
-/// the mean is that of the larger party. `light` holds roots of linear light. 0 where nothing was measured, and where
-/// neither colour (`difference`) nor depth changed.
+/// The rise averaged over those of the 9x9 pixels that have the pixel's own colour, up to noise, so that it is smoothed
+/// along a thin part or a shadow but not across its edge. For a pixel that was not measured, its neighbours vote
+/// whether it rose, and the mean of the majority is taken. `light` is the square root of linear light. The result is 0
+/// if nothing was measured nearby, or if neither colour (`difference`) nor depth changed.
 cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, const cv::Mat1f& difference, float noise) {
   constexpr int kReach = 4;
   constexpr float kSameDifference = 3, kSameRise_m = 0.001f;
@@ -106,9 +107,9 @@ cv::Mat1f smooth_rise(const cv::Mat1f& rise, const cv::Mat3f& light, const cv::M
   return smooth;
 }
 
-/// The patches of `likely` pixels that hold enough `sure` ones. An edge seen from above, such as that of a blade, is
-/// one pixel wide and full of holes: only single pixels of it were `measured`, and those that lie near each other count
-/// together.
+/// The connected patches of `likely` pixels with enough `sure` pixels in them. A blade seen on edge is one pixel wide,
+/// and the camera measures the depth of few of its pixels: `measured` pixels near each other therefore count together
+/// even if their patches do not touch.
 cv::Mat1b without_specks(const cv::Mat1b& likely, const cv::Mat1b& sure, const cv::Mat1b& measured) {
   constexpr int kLeastSure_px = 8, kLeast_px = 12, kGap_px = 16;
   cv::Mat patches, groups;

@@ -6,8 +6,9 @@
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
-#include "enclosing_circle.h"
-#include "foreground.h"
+#include "image/opencv_image.h"
+#include "localise/enclosing_circle.h"
+#include "localise/foreground.h"
 
 namespace svnet {
 namespace {
@@ -20,12 +21,7 @@ void check_fits(const Intrinsics& camera, const RgbdView& view, const char* whic
         camera.height);
 }
 
-cv::Mat3b rgb_of(const Image& image) {
-  return cv::Mat3b(static_cast<int>(image.height), static_cast<int>(image.width),
-                   reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(image.rgb.data())));
-}
-
-/// Values that are no distance become holes.
+/// Values that are not a depth become 0, not measured.
 cv::Mat1f depth_of(const DepthImage& image) {
   cv::Mat1f depth(static_cast<int>(image.height), static_cast<int>(image.width));
   std::transform(image.metres.begin(), image.metres.end(), depth.begin(),
@@ -44,7 +40,7 @@ Image image_of(const cv::Mat& picture) {
   return image;
 }
 
-/// The pixels of the object: parts less than about 16 pixels apart are one.
+/// The pixels of the object. Parts less than about 16 pixels apart count as one object.
 cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
   constexpr int kLeast_px = 40;
   cv::Mat labels;
@@ -66,8 +62,8 @@ cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
   return foreground & (labels == static_cast<int>(largest - area.begin()));
 }
 
-/// The depth of a pixel at the object's edge: the median of those around it that belong to the object and were
-/// measured.
+/// The depth of a pixel at the object's edge: the median of the measured pixels of the object around it; 0 if there is
+/// none within 8 pixels.
 float depth_near(const cv::Mat1f& depth, const cv::Mat1b& inside, const cv::Mat1b& whole, int y, int x) {
   std::vector<float> values;
   for (int reach = 2; values.empty() && reach <= 8; reach += 2) {
@@ -88,7 +84,7 @@ double percentile(std::vector<double>& values, double share) {
   return *place;
 }
 
-/// Heights of the object's pixels above the table, each the median of the 3x3 around it, and of the table nearby.
+/// The height of the table under the object in the world, and of the object above the table.
 struct Heights {
   double table_m, object_m;
 };
@@ -112,7 +108,8 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
     }
   check(!table.empty() && !top.empty(), "[localise] the depth pictures have no measurements where the object is");
   const double table_m = percentile(table, 0.5);
-  // Almost the highest of all; of large objects too, whose highest part may be a hook or the end of a handle.
+  // Almost the highest pixel. The limit in pixels is for large objects, whose highest part may be small: a hook or the
+  // end of a handle.
   constexpr double kShare = 0.008, kMost_px = 12;
   const double share = std::min(kShare, kMost_px / static_cast<double>(top.size()));
   const double height_m = percentile(top, 1 - share) - table_m;
@@ -158,7 +155,7 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
         "[localise] the camera looks upwards; give the pose of its optical frame (z forward) in a world with z up");
   check_fits(camera, background, "background");
   check_fits(camera, current, "current");
-  const cv::Mat3b before = rgb_of(background.rgb), after = rgb_of(current.rgb);
+  const cv::Mat3b before = matrix_of(background.rgb), after = matrix_of(current.rgb);
   const cv::Mat1f depth_before = depth_of(background.depth), depth_after = depth_of(current.depth);
   const Foreground foreground = find_foreground(before, depth_before, after, depth_after);
   const cv::Mat1b object = object_mask(foreground.mask, options.take_largest);
@@ -183,11 +180,11 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   check(outline.size() >= 3, "[localise] the depth picture has no measurements along the object's contour");
   pixel_mm /= static_cast<double>(outline.size());
   const cv::RotatedRect rectangle = cv::minAreaRect(outline);
-  constexpr double kSoftness_px = 0.3;  // of a contour point, by far the most of it from the pixels' own size
+  constexpr double kSoftness_px = 0.3;  // error of a contour point, mostly from the size of the pixels
   const cv::Point2d middle = soft_enclosing_centre(outline, kSoftness_px * pixel_mm);
 
   LocalisedObject result;
-  // Contour pixels' centres lie half a pixel inside the contour, which blur has moved outwards by a fifth.
+  // The centres of contour pixels lie half a pixel inside the contour, and blur moves it outwards by a fifth of one.
   const double margin_mm = 0.6 * pixel_mm;
   const double a = (rectangle.size.width + margin_mm) / 1000, b = (rectangle.size.height + margin_mm) / 1000;
   result.length_m = std::max(a, b);

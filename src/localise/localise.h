@@ -8,8 +8,8 @@
 #include "image/image.h"
 #include "view/camera.h"
 
-// Where an object is, and how large: section 3 of the paper, on a picture of the empty table and one with the object,
-// taken from the same place.
+// Measures where an object is and how large (section 3 of the paper), from one RGB-D picture of the empty table and one
+// with the object, both from the same camera pose.
 namespace svnet {
 
 struct RgbdView {
@@ -18,32 +18,33 @@ struct RgbdView {
 };
 
 struct LocaliseOptions {
-  bool take_largest = false;  // of several objects, rather than to refuse them
-  bool keep_steps = false;    // the pictures for the eye
+  bool take_largest = false;  // of several objects, measure the largest; otherwise they are an Error
+  bool keep_steps = false;    // make LocalisedObject::steps
 };
 
-/// The steps of the work that there are pictures of: what differs, what belongs to the object, its contour with the
-/// rectangle and GC, how high it rises.
+/// The names of the pictures of the steps: the difference of the colours, the object's pixels, their contour with the
+/// rectangle and the centre, the rise in depth.
 constexpr std::array<const char*, 4> kLocaliseSteps{"difference", "foreground", "contour", "height"};
 
 struct LocalisedObject {
-  Eigen::Vector3d centre_m;  // GC: the middle of the smallest circle around the contour (enclosing_circle.h), half way
-                             // up; world
-  double length_m,
-      width_m;        // the longer and the shorter side of the smallest rectangle around the contour in the xy plane
-  double height_m;    // above the table
-  double yaw_rad;     // of the longer side from the world's x axis, in [0, π)
-  double diagonal_m;  // d = √(length² + width² + height²)
-  std::vector<Image> steps;  // of kLocaliseSteps, where they were to be kept
+  /// The geometric centre GC in the world: the centre of the circle around the contour (enclosing_circle.h), at half
+  /// the height.
+  Eigen::Vector3d centre_m;
+  /// The longer and the shorter side of the smallest rectangle around the contour in the world's xy plane.
+  double length_m, width_m;
+  double height_m;           // above the table
+  double yaw_rad;            // angle from the world's x axis to the longer side, in [0, π)
+  double diagonal_m;         // d = √(length² + width² + height²)
+  std::vector<Image> steps;  // the pictures of kLocaliseSteps; empty without keep_steps
 };
 
-/// Finds the object. What changed in colour belongs to it, unless it only got darker and lies no higher than before (a
-/// shadow), and so does what rose by more than 4 mm; beside that, what changed half as much. Slow changes of the light
-/// and sensor noise do not matter, nor do holes in depth. `camera_to_world` is the optical frame's pose in a world
-/// whose z axis is vertical.
+/// Finds the object. Its pixels are those that changed their colour, except for shadows, which only got darker and did
+/// not rise, and those that rose by more than 4 mm. Pixels next to these belong to it if they changed half as much.
+/// A changed brightness of the light, sensor noise and pixels without depth are tolerated. `camera_to_world` is the
+/// pose of the optical frame in a world whose z axis is vertical.
 ///
-/// Throws Error where pictures do not fit the camera, nothing is found, the object is cut off by the border, there are
-/// several objects, what is new lies below the table, or the camera does not look down at it.
+/// Throws Error if the pictures do not have the camera's size, nothing is found, the object touches the border, there
+/// are several objects, the object lies below the table, or the camera does not look down.
 LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
                          const RgbdView& current, const LocaliseOptions& = {});
 

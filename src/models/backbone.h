@@ -10,26 +10,26 @@
 
 namespace svnet {
 
-/// A backbone cut at the layer whose output are the features, with its numbers. Safe to share between threads.
+/// A backbone up to the layer that gives the features, with its parameters. Safe to share between threads.
 class Backbone {
  public:
-  /// `graph` as kind.graph made it; layers above the output, and their parameters, are not kept and need not be given.
-  /// `layer` as output_layer takes it. Throws Error where the graph has no such layer.
+  /// `graph` as kind.graph makes it, `layer` as output_layer takes it. Layers above that one and their parameters are
+  /// not kept, and need not be given. Throws Error if the graph has no such layer.
   Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer = "");
 
   const BackboneKind& kind() const { return *kind_; }
   const Graph& graph() const { return graph_; }
-  /// The name of the layer whose output are the features, and their number D.
+  /// The name of the layer that gives the features, and their number D.
   const std::string& output_name() const { return graph_.node(graph_.output()).name; }
   Index dimension() const { return element_count(graph_.node(graph_.output()).shape); }
   const Parameters& parameters() const { return parameters_; }
   const Preprocessing& preprocessing() const { return kind_->preprocessing; }
-  /// What runs.
+  /// The compiled graph.
   const Inference& network() const { return *inference_; }
 
-  /// Features (N, D) of a batch (N, H, W, 3) that has been preprocessed.
+  /// Features (N, D) of a preprocessed batch (N, H, W, 3).
   Tensor features(const Tensor& batch) const;
-  /// Resizes and preprocesses pictures of any size into a batch (N, H, W, 3).
+  /// Resizes and preprocesses images of any size into a batch (N, H, W, 3).
   Tensor batch(std::span<const Image> images) const;
 
  private:
@@ -39,7 +39,7 @@ class Backbone {
   std::shared_ptr<const Inference> inference_{};
 };
 
-/// The backbone with seeded random weights, with the layers of its top only where `layer` is one of them.
+/// The backbone with seeded random weights. It has the layers of the top only if `layer` is one of them.
 Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed);
 
 }  // namespace svnet

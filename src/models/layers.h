@@ -5,7 +5,7 @@
 
 namespace svnet::models {
 
-// The few layer idioms that Keras' mobile networks share, added to a graph one after the other.
+// Short forms for the layers that Keras' mobile networks share. Each adds one node and returns it.
 
 struct ConvOptions {
   Index filters, kernel = 1, stride = 1;

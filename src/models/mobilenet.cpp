@@ -1,5 +1,6 @@
-#include "models/mobilenet.h"
-
+// MobileNet (Howard et al., 2017), width 1. Input (size, size, 3), at least 32; the pooled output is
+// `global_average_pooling2d` (1024). The top gives the 1000 classes of ImageNet as `predictions`.
+#include "models/backbones.h"
 #include "models/layers.h"
 
 namespace svnet::models {
@@ -17,9 +18,7 @@ NodeId separable_block(Graph& g, NodeId x, int number, Index filters, Index stri
   return activation(g, "conv_pw_" + id + "_relu", x, Activation::relu6);
 }
 
-}  // namespace
-
-Graph mobilenet(Index size, bool top) {
+Graph graph(Index size, bool top) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "conv1", x, {.filters = 32, .kernel = 3, .stride = 2});
@@ -38,6 +37,17 @@ Graph mobilenet(Index size, bool top) {
   x = g.add("reshape_2", ReshapeLayer{{1000}}, {x});
   activation(g, "predictions", x, Activation::softmax);
   return g;
+}
+
+}  // namespace
+
+BackboneKind mobilenet() {
+  return {.name = "mobilenet",
+          .pooled = "global_average_pooling2d",
+          .last_block_input = "conv_pw_12_relu",
+          .preprocessing = {.mode = PixelMode::tf, .height = 224, .width = 224},
+          .graph = graph,
+          .weight_files = {"mobilenet_1_0_224_tf_no_top.h5", "mobilenet_1_0_224_tf.h5"}};
 }
 
 }  // namespace svnet::models

@@ -1,5 +1,6 @@
-#include "models/mobilenet_v2.h"
-
+// MobileNetV2 (Sandler et al., 2018), width 1. Input (size, size, 3), at least 32; the pooled output is
+// `global_average_pooling2d` (1280). The top gives the 1000 classes of ImageNet as `predictions`.
+#include "models/backbones.h"
 #include "models/layers.h"
 
 namespace svnet::models {
@@ -30,9 +31,7 @@ NodeId inverted_residual(Graph& g, NodeId input, int number, Index expansion, In
   return channels == filters && stride == 1 ? g.add(prefix + "add", AddLayer{}, {input, x}) : x;
 }
 
-}  // namespace
-
-Graph mobilenet_v2(Index size, bool top) {
+Graph graph(Index size, bool top) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "Conv1", x, {.filters = 32, .kernel = 3, .stride = 2});
@@ -52,6 +51,18 @@ Graph mobilenet_v2(Index size, bool top) {
   x = g.add("global_average_pooling2d", GlobalPool2dLayer{.kind = PoolKind::average}, {x});
   if (top) g.add("predictions", DenseLayer{.units = 1000, .activation = Activation::softmax}, {x});
   return g;
+}
+
+}  // namespace
+
+BackboneKind mobilenet_v2() {
+  return {.name = "mobilenet_v2",
+          .pooled = "global_average_pooling2d",
+          .last_block_input = "block_15_add",
+          .preprocessing = {.mode = PixelMode::tf, .height = 224, .width = 224},
+          .graph = graph,
+          .weight_files = {"mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224_no_top.h5",
+                           "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5"}};
 }
 
 }  // namespace svnet::models

@@ -1,29 +1,12 @@
 #include "models/preprocessing.h"
 
-#include <vector>
-
-#include "base/error.h"
 #include "base/text.h"
 
 namespace svnet {
 
-std::string name_of(PixelMode mode) {
-  switch (mode) {
-    case PixelMode::caffe:
-      return "caffe";
-    case PixelMode::tf:
-      return "tf";
-    case PixelMode::none:
-      break;
-  }
-  return "none";
-}
-
 PixelMode pixel_mode_named(std::string_view name) {
-  for (const PixelMode known : {PixelMode::none, PixelMode::caffe, PixelMode::tf})
-    if (name == name_of(known)) return known;
-  const std::vector<std::string> names{"none", "caffe", "tf"};
-  fail("preprocessing '", name, "' is not known", suggestion(name, names));
+  if (const auto mode = find_enum<PixelMode>(std::string(name))) return *mode;
+  fail("preprocessing '", name, "' is not known", suggestion(name, names_of<PixelMode>()));
 }
 
 void preprocess(PixelMode mode, const std::uint8_t* rgb, Index pixels, float* out) {

@@ -1,24 +1,27 @@
 #pragma once
 #include <cstdint>
-#include <string>
 #include <string_view>
 
+#include "base/enum_names.h"
 #include "image/image.h"
 #include "image/resize.h"
 
 namespace svnet {
 
 /// How pixels become network input: the modes of Keras' imagenet_utils.preprocess_input, with its bits.
-///   none   the grey levels as they are, RGB
-///   caffe  BGR, less the ImageNet means 103.939, 116.779, 123.68 (VGG)
+///   none   the 8-bit values unchanged, RGB
+///   caffe  BGR, minus the ImageNet means 103.939, 116.779, 123.68 (VGG)
 ///   tf     x / 127.5 - 1, RGB (Xception, MobileNet)
 enum class PixelMode { none, caffe, tf };
 
-/// As files name them. pixel_mode_named throws Error for an unknown name.
-std::string name_of(PixelMode);
+template <>
+inline constexpr auto enum_names<PixelMode> =
+    std::to_array<EnumName<PixelMode>>({{PixelMode::none, "none"}, {PixelMode::caffe, "caffe"}, {PixelMode::tf, "tf"}});
+
+/// Throws Error for an unknown name.
 PixelMode pixel_mode_named(std::string_view name);
 
-/// All that a model's file says about its input.
+/// What a model file says about the model's input.
 struct Preprocessing {
   PixelMode mode = PixelMode::none;
   Index height = 224;
@@ -29,10 +32,10 @@ struct Preprocessing {
   Index size() const { return height * width * 3; }
 };
 
-/// rgb (pixels, 3) grey levels -> out (pixels, 3).
+/// rgb (pixels, 3) -> out (pixels, 3).
 void preprocess(PixelMode, const std::uint8_t* rgb, Index pixels, float* out);
 
-/// Resizes to (height, width) where needed and preprocesses; out is (height, width, 3).
+/// Resizes to (height, width) if needed and preprocesses; out is (height, width, 3).
 void prepare(const Preprocessing&, const Image&, float* out);
 
 }  // namespace svnet

@@ -1,8 +1,8 @@
 #include "models/sv_net.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 
 #include "base/text.h"
@@ -11,13 +11,11 @@
 namespace svnet {
 namespace {
 
-constexpr std::array<const char*, 3> kEncodings{"radians", "sphere", "harmonics"};  // in the order of the enumeration
-
-NodeId dropped(Graph& g, const std::string& name, NodeId x, double rate) {
+NodeId dropout(Graph& g, const std::string& name, NodeId x, double rate) {
   return rate > 0 ? g.add(name, DropoutLayer{rate}, {x}) : x;
 }
 
-/// Fully connected layer, batch norm, activation; named prefix_fc, prefix_bn, prefix_relu.
+/// Dense layer, batch norm, ReLU, named prefix_fc, prefix_bn, prefix_relu.
 NodeId dense_block(Graph& g, const std::string& prefix, NodeId x, Index units) {
   x = g.add(prefix + "_fc", DenseLayer{.units = units}, {x});
   x = models::batch_norm(g, prefix + "_bn", x);
@@ -26,13 +24,11 @@ NodeId dense_block(Graph& g, const std::string& prefix, NodeId x, Index units) {
 
 }  // namespace
 
-const char* name_of(AngleEncoding encoding) { return kEncodings[static_cast<std::size_t>(encoding)]; }
-
 AngleEncoding angle_encoding_named(const std::string& text) {
-  const auto found = std::find(kEncodings.begin(), kEncodings.end(), text);
-  check(found != kEncodings.end(), "[sv_net] there is no angle encoding '", text, "'",
-        suggestion(text, std::vector<std::string>(kEncodings.begin(), kEncodings.end())));
-  return static_cast<AngleEncoding>(found - kEncodings.begin());
+  const auto found = find_enum<AngleEncoding>(text);
+  check(found.has_value(), "[sv_net] there is no angle encoding '", text, "'",
+        suggestion(text, names_of<AngleEncoding>()));
+  return *found;
 }
 
 Index angle_count(AngleEncoding encoding) {
@@ -42,28 +38,27 @@ Index angle_count(AngleEncoding encoding) {
     case AngleEncoding::sphere:
       return 3;
     case AngleEncoding::harmonics:
-      break;
+      return 5;
   }
   return kMostAngles;
 }
 
 void encode_angles(AngleEncoding encoding, double theta_deg, double phi_deg, float* encoded) {
   const double theta = theta_deg * std::numbers::pi / 180, phi = phi_deg * std::numbers::pi / 180;
-  if (encoding == AngleEncoding::radians) {
-    encoded[0] = static_cast<float>(theta - std::numbers::pi);
-    encoded[1] = static_cast<float>(phi - std::numbers::pi);
-  } else if (encoding == AngleEncoding::sphere) {
-    encoded[0] = static_cast<float>(std::cos(phi) * std::cos(theta));
-    encoded[1] = static_cast<float>(std::cos(phi) * std::sin(theta));
-    encoded[2] = static_cast<float>(std::sin(phi));
-  } else {
-    constexpr double kStrength = 4;
-    const double level = kStrength * std::numbers::sqrt2 * std::cos(phi);
-    encoded[0] = static_cast<float>(level * std::cos(theta));
-    encoded[1] = static_cast<float>(level * std::sin(theta));
-    encoded[2] = static_cast<float>(level * std::cos(2 * theta));
-    encoded[3] = static_cast<float>(level * std::sin(2 * theta));
-    encoded[4] = static_cast<float>(kStrength * (phi_deg - 65) / 15);
+  const auto write = [&](std::initializer_list<double> values) {
+    std::transform(values.begin(), values.end(), encoded, [](double value) { return static_cast<float>(value); });
+  };
+  switch (encoding) {
+    case AngleEncoding::radians:
+      return write({theta - std::numbers::pi, phi - std::numbers::pi});
+    case AngleEncoding::sphere:
+      return write({std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)});
+    case AngleEncoding::harmonics: {
+      constexpr double kStrength = 4;
+      const double level = kStrength * std::numbers::sqrt2 * std::cos(phi);
+      return write({level * std::cos(theta), level * std::sin(theta), level * std::cos(2 * theta),
+                    level * std::sin(2 * theta), kStrength * (phi_deg - 65) / 15});
+    }
   }
 }
 
@@ -72,14 +67,14 @@ Graph sv_net(const SvNetOptions& o) {
   NodeId x = g.input("features", {o.features});
   const NodeId angles = g.input("angles", {angle_count(o.angles)});
   x = dense_block(g, "mlp1_1", x, o.width);
-  x = dropped(g, "mlp1_2_drop", x, o.dropout);
+  x = dropout(g, "mlp1_2_drop", x, o.dropout);
   x = dense_block(g, "mlp1_2", x, o.width);
   x = g.add("concat", ConcatLayer{}, {x, angles});
-  x = dropped(g, "mlp2_1_drop", x, o.dropout);
+  x = dropout(g, "mlp2_1_drop", x, o.dropout);
   x = dense_block(g, "mlp2_1", x, o.width);
-  x = dropped(g, "mlp2_2_drop", x, o.dropout);
+  x = dropout(g, "mlp2_2_drop", x, o.dropout);
   x = dense_block(g, "mlp2_2", x, o.width);
-  x = dropped(g, "mlp2_3_drop", x, o.dropout);
+  x = dropout(g, "mlp2_3_drop", x, o.dropout);
   x = g.add("mlp2_3_fc", DenseLayer{.units = 1}, {x});
   x = models::batch_norm(g, "mlp2_3_bn", x);
   models::activation(g, "score", x, Activation::sigmoid);

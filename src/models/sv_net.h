@@ -1,23 +1,28 @@
 #pragma once
 #include <string>
 
+#include "base/enum_names.h"
 #include "nn/graph/graph.h"
 
 namespace svnet {
 
-/// How a camera pose is fed. radians: θ − π, φ − π. sphere: the unit viewing direction (cos φ cos θ, cos φ sin θ, sin
-/// φ). harmonics: 4 (√2 cos φ cos θ, √2 cos φ sin θ, √2 cos φ cos 2θ, √2 cos φ sin 2θ, (φ − 65°) / 15°); opposite views
-/// are as easily told to be alike as to differ, and the numbers are large enough to be heard beside hundreds of
-/// activations.
+/// How a camera pose (θ azimuth, φ elevation) becomes the input `angles` of the network.
+///   radians    θ − π, φ − π
+///   sphere     the unit vector towards the camera: cos φ cos θ, cos φ sin θ, sin φ
+///   harmonics  4 · (√2 cos φ cos θ, √2 cos φ sin θ, √2 cos φ cos 2θ, √2 cos φ sin 2θ, (φ − 65°) / 15°). With 2θ the
+///              network can easily give opposite views equal scores. The factor 4 keeps these few inputs from being
+///              lost beside hundreds of activations.
 enum class AngleEncoding { radians, sphere, harmonics };
-const char* name_of(AngleEncoding);
+template <>
+inline constexpr auto enum_names<AngleEncoding> = std::to_array<EnumName<AngleEncoding>>(
+    {{AngleEncoding::radians, "radians"}, {AngleEncoding::sphere, "sphere"}, {AngleEncoding::harmonics, "harmonics"}});
 /// Throws Error for an unknown name.
 AngleEncoding angle_encoding_named(const std::string& name);
 
-/// How many numbers an encoded pose has.
+/// Number of floats of an encoded pose.
 Index angle_count(AngleEncoding);
-inline constexpr Index kMostAngles = 5;  ///< of any encoding
-/// Writes angle_count numbers.
+inline constexpr Index kMostAngles = 5;  ///< the largest angle_count
+/// Writes angle_count floats.
 void encode_angles(AngleEncoding, double theta_deg, double phi_deg, float* encoded);
 
 struct SvNetOptions {
@@ -28,8 +33,8 @@ struct SvNetOptions {
 };
 
 /// The two MLPs of SV-net (Guérin et al., "Semantically Meaningful View Selection", IROS 2018): inputs `features`
-/// (features) and `angles` (angle_count), output `score` (1) in (0, 1). Dropout is a layer only where its rate is not
-/// 0.
+/// (features) and `angles` (angle_count), output `score` (1) in (0, 1). There are dropout layers only if the rate
+/// is not 0.
 Graph sv_net(const SvNetOptions& options);
 
 }  // namespace svnet

@@ -1,5 +1,7 @@
-#include "models/tiny_xception.h"
-
+// A small network in the manner of Xception (Chollet, 2017): a strided convolution, then blocks of two separable
+// convolutions and a strided pooling beside a 1×1 shortcut. About 0.27 million parameters. Input (size, size, 3), at
+// least 32; the pooled output is `avg_pool` (256). It has no top.
+#include "models/backbones.h"
 #include "models/layers.h"
 
 namespace svnet::models {
@@ -32,9 +34,7 @@ NodeId block(Graph& g, const std::string& name, NodeId input, Index filters) {
   return activation(g, name + "_act", x, Activation::relu);
 }
 
-}  // namespace
-
-Graph tiny_xception(Index size, bool) {
+Graph graph(Index size, bool) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "block1_conv1", x, {.filters = 24, .kernel = 3, .stride = 2});
@@ -44,6 +44,17 @@ Graph tiny_xception(Index size, bool) {
   for (Index filters : {48, 96, 160, 256}) x = block(g, "block" + std::to_string(++number), x, filters);
   g.add("avg_pool", GlobalPool2dLayer{.kind = PoolKind::average}, {x});
   return g;
+}
+
+}  // namespace
+
+BackboneKind tiny_xception() {
+  return {.name = "tiny_xception",
+          .pooled = "avg_pool",
+          .last_block_input = "block4_act",
+          .preprocessing = {.mode = PixelMode::tf, .height = 96, .width = 96},
+          .graph = graph,
+          .weight_files = {"tiny_xception.h5"}};
 }
 
 }  // namespace svnet::models

@@ -4,16 +4,17 @@
 
 namespace svnet {
 
-/// What is trained, as one graph: the layers of `backbone` between `from` and `output`, called "backbone/<layer>", and
-/// `head`, called "head/<layer>", whose first input takes the numbers of `output`. Its inputs are the output of `from`
-/// and the other inputs of the head. Where `from` is `output`, the backbone has no part in it and the first input is
-/// the head's own. Throws Error where a layer that `output` needs has a way to the backbone's input past `from`.
+/// The part of a model that is trained, as one graph: the layers of `backbone` after `from` up to `output`, named
+/// "backbone/<layer>", and `head`, named "head/<layer>", whose first input reads `output` (flattened). The inputs of
+/// the graph are the output of `from` and the head's other inputs. If `from` is `output`, no layer of the backbone is
+/// trained and the inputs are the head's own.
+/// Throws Error if `output` depends on the backbone's input by a way that does not lead through `from`.
 Graph trained_graph(const Graph& backbone, NodeId from, NodeId output, const Graph& head);
 
-/// Parameters of a trained graph to begin with: the backbone's numbers, copied, and the head's from their initialisers.
+/// Parameters to start training from: copies of the backbone's, and the head's from their initialisers.
 Parameters trained_parameters(const Graph& trained, const Parameters& backbone, const Graph& head, std::uint64_t seed);
 
-/// Replaces in `backbone` and `head` what a trained graph has parameters for.
+/// Copies the trained parameters back into those of `backbone` and `head`.
 void take_trained(const Parameters& trained, Parameters& backbone, Parameters& head);
 
 }  // namespace svnet

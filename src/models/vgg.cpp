@@ -1,11 +1,12 @@
-#include "models/vgg.h"
-
+// VGG16 and VGG19 (Simonyan & Zisserman, 2015). Input (size, size, 3); the features are `block5_pool`. The top
+// (flatten, fc1, fc2, predictions) exists only for the size of its weights, 224.
+#include "models/backbones.h"
 #include "models/layers.h"
 
 namespace svnet::models {
 namespace {
 
-/// `depth`: convolutions of each of the last three blocks.
+/// `depth`: number of convolutions in each of the last three blocks.
 Graph vgg(Index size, bool top, int depth) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
@@ -30,9 +31,29 @@ Graph vgg(Index size, bool top, int depth) {
   return g;
 }
 
+Graph vgg16_graph(Index size, bool top) { return vgg(size, top, 3); }
+Graph vgg19_graph(Index size, bool top) { return vgg(size, top, 4); }
+
 }  // namespace
 
-Graph vgg16(Index size, bool top) { return vgg(size, top, 3); }
-Graph vgg19(Index size, bool top) { return vgg(size, top, 4); }
+BackboneKind vgg16() {
+  return {.name = "vgg16",
+          .pooled = "block5_pool",
+          .last_block_input = "block4_pool",
+          .preprocessing = {.mode = PixelMode::caffe, .height = 224, .width = 224},
+          .graph = vgg16_graph,
+          .weight_files = {"vgg16_weights_tf_dim_ordering_tf_kernels_notop.h5",
+                           "vgg16_weights_tf_dim_ordering_tf_kernels.h5"}};
+}
+
+BackboneKind vgg19() {
+  return {.name = "vgg19",
+          .pooled = "block5_pool",
+          .last_block_input = "block4_pool",
+          .preprocessing = {.mode = PixelMode::caffe, .height = 224, .width = 224},
+          .graph = vgg19_graph,
+          .weight_files = {"vgg19_weights_tf_dim_ordering_tf_kernels_notop.h5",
+                           "vgg19_weights_tf_dim_ordering_tf_kernels.h5"}};
+}
 
 }  // namespace svnet::models

@@ -1,5 +1,6 @@
-#include "models/xception.h"
-
+// Xception (Chollet, 2017). Input (size, size, 3); the pooled output is `avg_pool` (2048). Keras numbers the layers of
+// the four shortcuts as it makes them: conv2d, conv2d_1, … and batch_normalization, batch_normalization_1, ….
+#include "models/backbones.h"
 #include "models/layers.h"
 
 namespace svnet::models {
@@ -71,8 +72,18 @@ class Builder {
   int adds_ = 0, shortcuts_ = 0;
 };
 
+Graph graph(Index size, bool top) { return Builder().build(size, top); }
+
 }  // namespace
 
-Graph xception(Index size, bool top) { return Builder().build(size, top); }
+BackboneKind xception() {
+  return {.name = "xception",
+          .pooled = "avg_pool",
+          .last_block_input = "add_11",
+          .preprocessing = {.mode = PixelMode::tf, .height = 299, .width = 299},
+          .graph = graph,
+          .weight_files = {"xception_weights_tf_dim_ordering_tf_kernels_notop.h5",
+                           "xception_weights_tf_dim_ordering_tf_kernels.h5"}};
+}
 
 }  // namespace svnet::models

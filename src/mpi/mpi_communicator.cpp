@@ -1,6 +1,6 @@
 #include "mpi/mpi_communicator.h"
 
-#define OMPI_SKIP_MPICXX 1  // not the C++ interface of long ago
+#define OMPI_SKIP_MPICXX 1  // leaves out the deprecated C++ interface
 #include <algorithm>
 
 #include <mpi.h>
@@ -11,14 +11,14 @@
 namespace svnet {
 namespace {
 
-/// Errors end all processes: MPI_ERRORS_ARE_FATAL, the default.
+/// An error of MPI ends all processes (MPI_ERRORS_ARE_FATAL, the default).
 class MpiCommunicator : public Communicator {
  public:
   MpiCommunicator() {
     int provided = MPI_THREAD_SINGLE;
     MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
     check(provided >= MPI_THREAD_FUNNELED,
-          "[mpi] this MPI allows no other threads in its processes; use another build");
+          "[mpi] this MPI does not support threads (MPI_THREAD_FUNNELED); use another build of MPI");
     MPI_Comm_rank(MPI_COMM_WORLD, &rank_);
     MPI_Comm_size(MPI_COMM_WORLD, &size_);
   }
@@ -27,7 +27,7 @@ class MpiCommunicator : public Communicator {
   int rank() const override { return rank_; }
   int size() const override { return size_; }
   void all_reduce(std::span<std::uint64_t> values) override { sum(values, MPI_UINT64_T); }
-  /// Sums the bits as integers: -0 and NaN keep theirs too.
+  /// Sums the bits as integers, so that -0 and NaN keep theirs.
   void all_reduce(std::span<float> values) override {
     static_assert(sizeof(float) == sizeof(std::uint32_t));
     sum(values, MPI_UINT32_T);
@@ -41,10 +41,10 @@ class MpiCommunicator : public Communicator {
  private:
   template <class T>
   static void sum(std::span<T> values, MPI_Datatype type) {
-    constexpr std::size_t kMost = std::size_t{1} << 28;  // counts are ints
+    constexpr std::size_t kMost = std::size_t{1} << 28;  // elements per call: MPI counts are ints
     for (std::size_t first = 0; first < values.size(); first += kMost)
-      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, static_cast<int>(std::min(kMost, values.size() - first)), type,
-                    MPI_SUM, MPI_COMM_WORLD);
+      MPI_Allreduce(MPI_IN_PLACE, values.data() + first, std::min(kMost, values.size() - first), type, MPI_SUM,
+                    MPI_COMM_WORLD);
   }
 
   int rank_ = 0, size_ = 1;

@@ -3,12 +3,14 @@
 
 namespace svnet {
 
-/// Whether this build knows MPI.
+/// Whether this build has MPI.
 bool built_with_mpi();
 
-/// The main function of a program whose processes share the work: runs `run` with the processes that mpirun or srun
-/// started, or alone, and returns its status. Where it is not 0 the whole communicator ends: the others would wait for
-/// this process. A build without MPI refuses to be one of several processes.
+/// The main function of a program whose processes share the work. Calls `run` with the communicator of the processes
+/// that mpirun or srun started, or of this process alone. `name`: of the program, for messages.
+///
+/// Returns the status of `run`. If it is not 0, all processes of the communicator are ended, because the others would
+/// wait for this one. Returns 1 in a build without MPI if a launcher started the process.
 int main_with_communicator(int argc, char** argv, const char* name,
                            int (*run)(int argc, char** argv, Communicator& communicator));
 

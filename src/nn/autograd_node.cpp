@@ -1,8 +1,8 @@
-// Nodes apart from running them: a program that only infers links these and none of the kernels of training.
+// Apart from autograd.cpp, so that a program that only infers links none of the kernels of training.
+#include "nn/autograd_node.h"
+
 #include <atomic>
 #include <utility>
-
-#include "nn/autograd.h"
 
 namespace svnet::autograd {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "nn/autograd.h"
+#include "nn/autograd_node.h"
 #include "nn/storage.h"
 
 namespace svnet {
@@ -12,8 +12,6 @@ namespace {
 std::size_t element_size(DType dtype) { return dtype == DType::f64 ? sizeof(double) : sizeof(float); }
 
 }  // namespace
-
-const char* name_of(DType dtype) { return dtype == DType::f64 ? "f64" : "f32"; }
 
 Index element_count(const Shape& shape) {
   Index count = 1;

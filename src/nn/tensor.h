@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/error.h"
 #include "base/index.h"
 
@@ -15,7 +16,8 @@ enum class DType { f32, f64 };
 template <class T>
 inline constexpr DType kDType = std::is_same_v<T, double> ? DType::f64 : DType::f32;
 
-const char* name_of(DType);
+template <>
+inline constexpr auto enum_names<DType> = std::to_array<EnumName<DType>>({{DType::f32, "f32"}, {DType::f64, "f64"}});
 
 /// Sizes from the slowest to the fastest axis. Images are (N, H, W, C), convolution weights (KH, KW, C, K).
 using Shape = std::vector<Index>;

@@ -1,15 +1,14 @@
 #include "predict/finite_check.h"
 
-#include <cmath>
-
 #include "base/error.h"
+#include "base/finite.h"
 
 namespace svnet {
 
 void check_finite(const Tensor& values, const char* what, std::size_t first) {
-  const auto numbers = values.values<float>();
-  for (std::size_t i = 0; i < numbers.size(); ++i)
-    check(std::isfinite(numbers[i]), "[predict] ", what, " ", first + i, " is ", numbers[i], ", not a finite number");
+  const auto all = values.values<float>();
+  if (const auto bad = first_not_finite(all))
+    fail("[predict] ", what, " ", first + *bad, " is ", all[*bad], ", not a finite number");
 }
 
 }  // namespace svnet

@@ -5,7 +5,7 @@
 
 namespace svnet {
 
-/// Throws Error for a value that is not finite: "[predict] feature 7 is nan, …". `first`: the number of the first
+/// Throws Error for a value that is not finite: "[predict] feature 7 is nan, …". `first` is the index of the first
 /// value.
 void check_finite(const Tensor& values, const char* what, std::size_t first = 0);
 

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kDot_px = 11;
 constexpr Colour kOutline{40, 40, 40}, kBest{214, 39, 40};
-/// Of rising brightness, so that the order survives a grey print.
+/// Brightness rises with the score, so that a grey print keeps the order.
 constexpr std::array<Colour, 5> kScale{{{48, 18, 92}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 
 /// The colour of a height in [0, 1].
@@ -25,7 +25,7 @@ Colour scale_colour(double height) {
 
 }  // namespace
 
-Image half_sphere_plot(std::span<const Pose> poses, std::span<const float> scores) {
+Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float> scores) {
   check(poses.size() == scores.size(), "[plot] there are ", poses.size(), " poses and ", scores.size(), " scores");
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string problem = pose_problem(poses[i]);

@@ -2,14 +2,13 @@
 #include <span>
 
 #include "image/image.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 namespace svnet {
 
-/// The half-sphere of camera poses seen from above (view/half_sphere_canvas.h).
-/// One dot per pose, from dark blue (the lowest score) through green to yellow (the highest); the best one is ringed in
-/// red. Of dots that overlap, the one with the higher score lies on top. Throws Error unless there are as many finite
-/// scores as poses, at least one, and all poses are in range.
-Image half_sphere_plot(std::span<const Pose> poses, std::span<const float> scores);
+/// The half-sphere of camera poses seen from above (view/half_sphere_canvas.h) with a dot per pose. Colours go from
+/// dark blue (lowest score) through green to yellow (highest); a red ring marks the best pose. Higher scores cover
+/// lower ones. Throws Error unless there is at least one pose, a finite score for each, and all poses are in range.
+Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float> scores);
 
 }  // namespace svnet

@@ -4,8 +4,8 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "models/orientation.h"
 #include "predict/finite_check.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 
@@ -13,24 +13,24 @@ Predictor::Predictor(const std::filesystem::path& model_file) : Predictor(read_m
 
 Predictor::Predictor(const Model& model)
     : preprocessing_(model.preprocessing),
-      orientations_(model.orientations),
+      symmetries_(model.symmetries),
       backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output)),
       head_(model) {}
 
 Tensor Predictor::embed(const Image& top) const {
   check(top.height > 0 && top.width > 0 && static_cast<Index>(top.rgb.size()) == top.height * top.width * 3,
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
-  Tensor batch = Tensor::empty({orientations_, preprocessing_.height, preprocessing_.width, 3});
+  Tensor batch = Tensor::empty({symmetries_, preprocessing_.height, preprocessing_.width, 3});
   prepare(preprocessing_, top, batch.data<float>());
-  for (int orientation = 1; orientation < orientations_; ++orientation)
-    orient(orientation, preprocessing_.width, batch.data<float>(),
-           batch.data<float>() + orientation * preprocessing_.size());
+  for (int symmetry = 1; symmetry < symmetries_; ++symmetry)
+    apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
+                   batch.data<float>() + symmetry * preprocessing_.size());
   const Tensor features = backbone_.run({batch});
   check_finite(features, "feature");
   return features.reshaped({1, feature_count()});
 }
 
-std::vector<float> Predictor::scores(const Tensor& features, std::span<const Pose> poses) const {
+std::vector<float> Predictor::scores(const Tensor& features, std::span<const CameraPose> poses) const {
   return head_.scores(features, poses);
 }
 

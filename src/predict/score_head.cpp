@@ -3,24 +3,25 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "models/orientation.h"
 #include "predict/finite_check.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
 
-/// Poses that the head sees at once: enough to read its weights seldom, few enough that repeated features stay small.
+/// Poses per run of the head: many, so that its weights are read rarely, but few enough that the repeated features stay
+/// small.
 constexpr Index kPosesAtOnce = 32;
 
 }  // namespace
 
 ScoreHead::ScoreHead(const Model& model)
     : angles_(model.angles),
-      orientations_(model.orientations),
-      feature_count_(model.orientations * element_count(model.head.node(model.head.inputs().at(0)).shape)),
+      symmetries_(model.symmetries),
+      feature_count_(model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape)),
       network_(model.head, model.head_parameters, model.head.output()) {}
 
-std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Pose> poses) const {
+std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const CameraPose> poses) const {
   check(features.defined() && features.shape() == Shape{1, feature_count_} && features.dtype() == DType::f32,
         "[predict] features are ", features.defined() ? to_string(features.shape()) : "none", ", the model expects ",
         to_string({1, feature_count_}), " f32");
@@ -30,24 +31,23 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Pos
     check(problem.empty(), "[predict] pose ", i, ": ", problem);
   }
   const Index count = static_cast<Index>(poses.size()), angles = angle_count(angles_);
-  const Index dimension = feature_count_ / orientations_;
+  const Index dimension = feature_count_ / symmetries_;
   std::vector<float> result(poses.size(), 0.0f);
-  for (int orientation = 0; orientation < orientations_; ++orientation)
+  for (int symmetry = 0; symmetry < symmetries_; ++symmetry)
     for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
       const Index size = std::min(kPosesAtOnce, count - begin);
       Tensor repeated = Tensor::empty({size, dimension}), encoded = Tensor::empty({size, angles});
       for (Index i = 0; i < size; ++i) {
-        const Pose& pose = poses[static_cast<std::size_t>(begin + i)];
-        // Within one turn: a model that is fed plain angles has seen no other.
-        const double theta_deg = oriented_theta_deg(orientation, pose.theta_deg);
-        std::copy_n(features.data<float>() + orientation * dimension, dimension,
-                    repeated.data<float>() + i * dimension);
+        const CameraPose& pose = poses[static_cast<std::size_t>(begin + i)];
+        // Within [0, 360): a model with plain angles was trained on these only.
+        const double theta_deg = symmetric_theta_deg(symmetry, pose.theta_deg);
+        std::copy_n(features.data<float>() + symmetry * dimension, dimension, repeated.data<float>() + i * dimension);
         encode_angles(angles_, theta_deg, pose.phi_deg, encoded.data<float>() + i * angles);
       }
       const Tensor values = network_.run({repeated, encoded});
       check_finite(values, "score", static_cast<std::size_t>(begin));
       for (Index i = 0; i < size; ++i)
-        result[static_cast<std::size_t>(begin + i)] += values.data<float>()[i] / static_cast<float>(orientations_);
+        result[static_cast<std::size_t>(begin + i)] += values.data<float>()[i] / static_cast<float>(symmetries_);
     }
   return result;
 }

@@ -4,27 +4,26 @@
 
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 namespace svnet {
 
-/// A trained model without its backbone: what makes scores of features and camera poses. Safe to use from several
-/// threads at once.
+/// A trained model without its backbone: it scores camera poses from features. Thread-safe.
 class ScoreHead {
  public:
   explicit ScoreHead(const Model& model);
 
-  /// The number D of features: of all orientations of the top image that the model looks at.
+  /// The number D of features: over all symmetries of the top image that the model sees.
   Index feature_count() const { return feature_count_; }
 
-  /// One score per pose, in order. Poses a whole turn apart have the same score. Throws Error unless features are
-  /// (1, D) finite f32, and every pose is in range (view/pose.h). A score does not depend on the poses that it is asked
-  /// for together with.
-  std::vector<float> scores(const Tensor& features, std::span<const Pose> poses) const;
+  /// One score per pose, in order. A score does not depend on the other poses of the call, and poses a whole turn apart
+  /// have the same score. Throws Error unless features are (1, D) finite f32 and every pose is in range
+  /// (view/camera_pose.h).
+  std::vector<float> scores(const Tensor& features, std::span<const CameraPose> poses) const;
 
  private:
   AngleEncoding angles_;
-  int orientations_;
+  int symmetries_;
   Index feature_count_;
   Inference network_;
 };

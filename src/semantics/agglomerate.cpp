@@ -1,9 +1,9 @@
 // Greedy agglomeration with cached nearest neighbours, after Müllner, "Modern hierarchical, agglomerative clustering
 // algorithms" (arXiv 1109.2378), section 3; updates by Lance and Williams (The Computer Journal 9, 1967).
 //
-// The linkages are reducible: a merged cluster is never nearer to a third than the nearer of its halves was. So what
-// was once the distance of a slot to its nearest later slot stays a lower bound, and only a slot whose bound is the
-// smallest of all is searched again, if its bound is out of date.
+// The linkages are reducible: a merged cluster is never nearer to a third cluster than the nearer of its two parts was.
+// So the distance of a slot to its nearest later slot, once computed, stays a lower bound. Only the slot with the
+// smallest bound is searched again, and only if its bound is out of date.
 #include "semantics/agglomerate.h"
 
 #include <algorithm>
@@ -24,7 +24,7 @@ namespace svnet {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Vectors of at most a line of 16 floats, so that padded rows hold whole vectors.
+// At most 16 lanes, so that padded rows hold whole vectors.
 using Floats = hn::CappedTag<float, 16>;
 using Ints = hn::RebindToSigned<Floats>;
 using FloatVector = hn::Vec<Floats>;
@@ -32,12 +32,12 @@ using IntVector = hn::Vec<Ints>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// first, first + 1, … Not Iota(first), which the compiler builds in memory number by number.
+/// first, first + 1, … Iota(first) would be slower: the compiler builds it in memory, lane by lane.
 HWY_INLINE IntVector positions_from(Index first) {
   return hn::Add(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(first)));
 }
 
-/// Bit i is lane i.
+/// Returns a mask as an integer; bit i is lane i.
 HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
   std::uint8_t bytes[8];
   hn::StoreMaskBits(Floats(), mask, bytes);
@@ -45,33 +45,33 @@ HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
   return bytes[0];
 }
 
-/// How many vectors the slots take: kVectors where it is known when the code is made, 0 where it is not.
+/// The number of vectors that hold all slots: kVectors if it is known at compile time, that is, not 0.
 template <int kVectors>
 HWY_INLINE Index vectors(const AgglomerationState& s) {
-  const auto lanes = static_cast<Index>(hn::Lanes(Floats()));
+  const Index lanes = hn::Lanes(Floats());
   return kVectors > 0 ? kVectors : (s.n + lanes - 1) / lanes;
 }
 
-/// The first slot behind `after` (-1: the first of all) that holds `wanted`; n if there is none. Takes no branch that
-/// depends on what they hold.
+/// Returns the first slot after slot `after` (-1: of all slots) whose value is `wanted`, or n if there is none. No
+/// branch depends on the values.
 template <int kVectors>
 HWY_INLINE Index first_equal(const AgglomerationState& s, const float* values, Index after, FloatVector wanted) {
   const Floats d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d)), count = vectors<kVectors>(s), of_word = 64 / lanes;
+  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s), of_word = 64 / lanes;
   Index found = s.n;
   for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
     std::uint64_t bits = 0;
     for (Index v = v0; v < std::min(count, v0 + of_word); ++v)
       bits |= bits_of(hn::Eq(hn::Load(d, values + v * lanes), wanted)) << ((v - v0) * lanes);
     const Index base = v0 * lanes, before = after - base;
-    const std::uint64_t behind = ~std::uint64_t{0} << (before & 63) << 1;
-    bits &= before < 0 ? ~std::uint64_t{0} : before > 63 ? 0 : behind;
+    const std::uint64_t later = ~std::uint64_t{0} << (before & 63) << 1;
+    bits &= before < 0 ? ~std::uint64_t{0} : before > 63 ? 0 : later;
     found = bits != 0 ? base + std::countr_zero(bits) : found;
   }
   return found;
 }
 
-/// Fills the upper half from the lower one by squares of four, where there are vectors of four.
+/// Copies the part below the diagonal to the part above it, in blocks of 4 x 4 if there are vectors of 4 lanes.
 HWY_INLINE void mirror(const AgglomerationState& s) {
 #if HWY_TARGET == HWY_SCALAR
   for (Index j = 0; j < s.n; ++j)
@@ -80,7 +80,7 @@ HWY_INLINE void mirror(const AgglomerationState& s) {
   const hn::FixedTag<float, 4> d;
   const hn::RepartitionToWide<decltype(d)> pairs;
   for (Index j = 0; j < s.n; j += 4) {
-    const float* row = s.dissimilarity + j * s.stride;  // below the last row there is memory, too
+    const float* row = s.dissimilarity + j * s.stride;  // there is memory for three rows after the last one
     for (Index i = 0; i < j; i += 4) {
       const auto r0 = hn::Load(d, row + i), r1 = hn::Load(d, row + s.stride + i);
       const auto r2 = hn::Load(d, row + 2 * s.stride + i), r3 = hn::Load(d, row + 3 * s.stride + i);
@@ -100,14 +100,13 @@ HWY_INLINE void mirror(const AgglomerationState& s) {
 #endif
 }
 
-/// Takes the distances below the diagonal into the matrix, fills its upper half, and finds the nearest later slot of
-/// each slot.
+/// Copies the input distances below the diagonal, mirrors them, and finds the nearest later slot of each slot.
 template <Linkage linkage>
 HWY_INLINE void start(const AgglomerationState& s) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
-  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = static_cast<std::int32_t>(j);
+  const Index lanes = hn::Lanes(d);
+  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = j;
   for (Index i = 0; i < s.stride; i += lanes) {
     const auto column = positions_from(i);
     auto value = hn::Set(d, kInfinity);
@@ -134,7 +133,7 @@ HWY_INLINE void start(const AgglomerationState& s) {
   mirror(s);
 }
 
-/// values[slot] = value, by a whole vector: a vector load that follows would have to wait for a narrower store.
+/// values[slot] = value. Stores a whole vector, because a later vector load would stall on a narrower store.
 HWY_INLINE void set(float* values, Index slot, FloatVector value) {
   const Floats d;
   const Index first = slot & -static_cast<Index>(hn::Lanes(d));
@@ -148,12 +147,12 @@ HWY_INLINE void set(std::int32_t* values, Index slot, IntVector value) {
   hn::Store(hn::IfThenElse(lane, value, hn::Load(d, values + first)), d, values + first);
 }
 
-/// Two clusters that may be the nearest: a slot and the later one that its bound belongs to.
+/// Two clusters that may be the nearest pair: a slot, and the later slot that its bound refers to.
 struct Candidate {
   Index slot, nearest;
 };
 
-/// A number that slots have, and the first slot that has it.
+/// The smallest value of all slots, and the first slot that has it.
 struct Smallest {
   FloatVector value;  // in every lane
   Index slot;
@@ -162,7 +161,7 @@ struct Smallest {
 template <int kVectors>
 HWY_INLINE Smallest smallest_bound(const AgglomerationState& s) {
   const Floats d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   auto value = hn::Load(d, s.nearest_value);
   for (Index v = 1; v < vectors<kVectors>(s); ++v) value = hn::Min(value, hn::Load(d, s.nearest_value + v * lanes));
   value = hn::MinOfLanes(d, value);
@@ -173,8 +172,8 @@ HWY_INLINE bool up_to_date(const AgglomerationState& s, const Candidate& c) {
   return s.gone[c.nearest] == 0 && s.dissimilarity[c.slot * s.stride + c.nearest] == s.nearest_value[c.slot];
 }
 
-/// Gives slot a its nearest later slot, whose distance is the smallest lane of `later`; returns a, or `other`, the slot
-/// with the smallest of the other bounds.
+/// Sets the nearest later slot of slot a; its distance is the smallest lane of `later`. `other` is the smallest bound
+/// of the other slots. Returns the candidate of a or of `other`, whichever bound is smaller.
 template <int kVectors>
 HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, FloatVector later, const Smallest& other) {
   later = hn::MinOfLanes(Floats(), later);
@@ -186,12 +185,12 @@ HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, FloatVector 
   return is_a ? Candidate{a, nearest} : Candidate{other.slot, s.nearest[other.slot]};
 }
 
-/// Brings the bound of slot a up to date; returns the candidate afterwards.
+/// Recomputes the bound of slot a. Returns the new candidate.
 template <int kVectors>
 HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   const auto infinity = hn::Set(d, kInfinity);
   set(s.nearest_value, a, infinity);
   const Smallest other = smallest_bound<kVectors>(s);
@@ -208,27 +207,27 @@ HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
   return conclude<kVectors>(s, a, later, other);
 }
 
-/// Merges slot b into the earlier slot a; returns the candidate afterwards.
+/// Merges slot b into the earlier slot a. Returns the new candidate.
 template <Linkage linkage, int kVectors>
 HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
   const Floats d;
   const Ints di;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   float* HWY_RESTRICT row_a = s.dissimilarity + a * s.stride;
   const float* HWY_RESTRICT row_b = s.dissimilarity + b * s.stride;
   const auto of_a = hn::Set(d, s.size[a]), of_b = hn::Set(d, s.size[b]), both = hn::Add(of_a, of_b);
   const auto between = hn::Set(d, row_a[b]), infinity = hn::Set(d, kInfinity);
   const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
-  s.merged_into[b] = static_cast<std::int32_t>(a);
+  s.merged_into[b] = a;
   set(s.gone, b, infinity);
   set(s.nearest_value, b, infinity);
-  set(s.nearest_value, a, infinity);  // until it is known again
+  set(s.nearest_value, a, infinity);  // until conclude sets it
   Smallest other = smallest_bound<kVectors>(s);
 
   auto later = infinity;
   auto any_nearer = hn::Lt(infinity, infinity);
   auto position = hn::Iota(di, 0);
-  /// Earlier slots may find the merged cluster nearest, by rounding or in a tie.
+  /// The earlier slots for which the merged cluster is now the nearest: possible after rounding, or in a tie.
   const auto finds_it_nearer = [&](Index i, FloatVector value) HWY_ATTR {
     const auto bound = hn::Load(d, s.nearest_value + i);
     const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Gt(hn::Load(di, s.nearest + i), slot_a)));
@@ -271,7 +270,7 @@ HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
 
   float* HWY_RESTRICT to = s.dissimilarity + a;
   const Index stride = s.stride;
-  for (Index row = 0; row < s.n; row += 4, to += 4 * stride) {  // below the last row there is memory, too
+  for (Index row = 0; row < s.n; row += 4, to += 4 * stride) {  // memory for three rows after the last
     to[0] = row_a[row];
     to[stride] = row_a[row + 1];
     to[2 * stride] = row_a[row + 2];
@@ -282,7 +281,7 @@ HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
 
 template <Linkage linkage, int kVectors>
 void agglomerate_by(Index k, const AgglomerationState& given) {
-  const AgglomerationState s = given;  // vector stores may alias what they do not know to be here alone
+  const AgglomerationState s = given;  // a local copy, so that the compiler knows that stores do not alias it
   start<linkage>(s);
   const Index first = smallest_bound<kVectors>(s).slot;
   Candidate next{first, s.nearest[first]};
@@ -297,13 +296,13 @@ constexpr auto agglomerations(std::integer_sequence<int, vectors...>) {
   return std::array{&agglomerate_by<linkage, vectors>...};
 }
 
-/// Loops over a known number of vectors are unrolled: that is worth its code where few vectors hold a problem.
+/// Chooses a version that is unrolled for its number of vectors, for up to 8 vectors.
 template <Linkage linkage>
 void agglomerate_by(Index k, const AgglomerationState& s) {
   constexpr int kMostUnrolled = hn::MaxLanes(Floats()) >= 8 ? 8 : 0;
   constexpr auto kByVectors = agglomerations<linkage>(std::make_integer_sequence<int, kMostUnrolled + 1>());
   const Index count = vectors<0>(s);
-  kByVectors[static_cast<std::size_t>(count <= kMostUnrolled ? count : 0)](k, s);
+  kByVectors[count <= kMostUnrolled ? count : 0](k, s);
 }
 
 void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {

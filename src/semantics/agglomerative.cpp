@@ -1,30 +1,17 @@
 #include "semantics/agglomerative.h"
 
 #include <algorithm>
-#include <array>
-#include <string>
-#include <vector>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "semantics/agglomerate.h"
 
 namespace svnet {
-namespace {
 
-constexpr std::array<std::string_view, 4> kNames{"ward", "average", "complete", "single"};
-
-}  // namespace
-
-std::string_view linkage_name(Linkage linkage) { return kNames[static_cast<std::size_t>(linkage)]; }
-
-Linkage linkage_named(std::string_view name) {
-  const auto found = std::find(kNames.begin(), kNames.end(), name);
-  if (found == kNames.end()) {
-    const std::vector<std::string> known(kNames.begin(), kNames.end());
-    fail("[linkage] '", name, "' is unknown", suggestion(name, known));
-  }
-  return static_cast<Linkage>(found - kNames.begin());
+Linkage linkage_named(const std::string& name) {
+  const auto found = find_enum<Linkage>(name);
+  check(found.has_value(), "[linkage] '", name, "' is unknown", suggestion(name, names_of<Linkage>()));
+  return *found;
 }
 
 Agglomerative::Agglomerative(Linkage linkage, Index max_points)
@@ -38,8 +25,8 @@ Agglomerative::Agglomerative(Linkage linkage, Index max_points)
 
 void Agglomerative::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                             std::span<std::int32_t> labels) {
-  check_sizes(static_cast<Index>(rows.size()), k, labels.size());
-  dissimilarity_.gather(distances, rows);
+  check_sizes(rows.size(), k, labels.size());
+  dissimilarity_.copy_rows(distances, rows);
   merge_to(k, nullptr, labels);
 }
 
@@ -49,16 +36,16 @@ void Agglomerative::cluster(const LowerTriangle& distances, Index k, std::span<s
   merge_to(k, distances.values, labels);
 }
 
-void Agglomerative::check_sizes(Index points, Index k, std::size_t labels) const {
+void Agglomerative::check_sizes(Index points, Index k, Index labels) const {
   check(k >= 1 && k <= points, "[agglomerative] cannot make ", k, " clusters of ", points, " points; 1 to ", points,
         " are possible");
   check(points <= dissimilarity_.max_points(), "[agglomerative] ", points, " points, but memory was made for ",
         dissimilarity_.max_points());
-  check(static_cast<Index>(labels) == points, "[agglomerative] ", labels, " labels for ", points, " points");
+  check(labels == points, "[agglomerative] ", labels, " labels for ", points, " points");
 }
 
 void Agglomerative::merge_to(Index k, const float* triangle, std::span<std::int32_t> labels) {
-  const auto n = static_cast<Index>(labels.size());
+  const Index n = labels.size();
   agglomerate(linkage_, k,
               {n, dissimilarity_.stride(), triangle, dissimilarity_.row(0), size_.data(), gone_.data(),
                nearest_value_.data(), nearest_.data(), merged_into_.data()});

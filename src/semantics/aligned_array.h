@@ -9,7 +9,7 @@
 
 namespace svnet {
 
-/// Memory for numbers as aligned_memory gives it, so that kernels may use whole vectors.
+/// An array from aligned_memory: 64-byte aligned, with one vector of padding, so that kernels may read whole vectors.
 template <class T>
 class AlignedArray {
   static_assert(std::is_trivial_v<T>);
@@ -21,7 +21,7 @@ class AlignedArray {
     const std::size_t bytes = size * sizeof(T);
     values_.reset(static_cast<T*>(aligned_memory(bytes)));
     if (values_ == nullptr) throw NoMemory(bytes);
-    // The vector behind the end too, which kernels may read.
+    // The padding too, because kernels may read it.
     if (contents == Contents::zero) std::fill_n(values_.get(), size + kAlignment / sizeof(T), T{});
   }
 

@@ -10,7 +10,7 @@
 namespace svnet {
 namespace {
 
-/// The largest label + 1, after counting the labels into sizes.
+/// Counts the labels into sizes. Returns the largest label + 1.
 Index count_labels(std::span<const std::int32_t> labels, Index max_items, std::vector<std::int64_t>& sizes) {
   const auto [lowest, highest] = std::minmax_element(labels.begin(), labels.end());
   check(*lowest >= 0 && *highest < max_items, "[cluster metrics] labels from ", *lowest, " to ", *highest,
@@ -21,7 +21,7 @@ Index count_labels(std::span<const std::int32_t> labels, Index max_items, std::v
 }
 
 Index groups(std::span<const std::int64_t> sizes) {
-  return static_cast<Index>(sizes.size()) - std::count(sizes.begin(), sizes.end(), 0);
+  return std::ssize(sizes) - std::count(sizes.begin(), sizes.end(), 0);
 }
 
 double entropy(std::span<const std::int64_t> sizes, double n) {
@@ -31,19 +31,19 @@ double entropy(std::span<const std::int64_t> sizes, double n) {
   return sum;
 }
 
-/// The same partition with labels 0, 1, … in the order of the labels' values.
+/// Replaces labels by 0, 1, …, in ascending order of their values.
 std::vector<std::int32_t> dense(Labels labels) {
   std::vector<std::int64_t> values(labels.begin(), labels.end());
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
-  std::vector<std::int32_t> numbers(labels.size());
+  std::vector<std::int32_t> dense_labels(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i)
-    numbers[i] = static_cast<std::int32_t>(std::lower_bound(values.begin(), values.end(), labels[i]) - values.begin());
-  return numbers;
+    dense_labels[i] = std::lower_bound(values.begin(), values.end(), labels[i]) - values.begin();
+  return dense_labels;
 }
 
 Contingency contingency(Labels truth, Labels predicted) {
-  Contingency counted(static_cast<Index>(std::max(truth.size(), predicted.size())));
+  Contingency counted(std::max(truth.size(), predicted.size()));
   counted.count(dense(truth), dense(predicted));
   return counted;
 }
@@ -62,7 +62,7 @@ Contingency::Contingency(Index max_items)
       cell_of_cluster_(max_items) {}
 
 void Contingency::count(std::span<const std::int32_t> truth, std::span<const std::int32_t> predicted) {
-  n_ = static_cast<Index>(truth.size());
+  n_ = truth.size();
   check(truth.size() == predicted.size(), "[cluster metrics] ", truth.size(), " true labels for ", predicted.size(),
         " predicted ones");
   check(n_ >= 1, "[cluster metrics] there are no labels; one item at least is needed");
@@ -73,11 +73,11 @@ void Contingency::count(std::span<const std::int32_t> truth, std::span<const std
   std::int32_t first = 0;
   for (Index c = 0; c < classes_; ++c) {
     first_of_class_[c] = first;
-    first += static_cast<std::int32_t>(class_size_[c]);
+    first += class_size_[c];
   }
-  for (Index i = 0; i < n_; ++i) by_class_[first_of_class_[truth[i]]++] = static_cast<std::int32_t>(i);
+  for (Index i = 0; i < n_; ++i) by_class_[first_of_class_[truth[i]]++] = i;
 
-  // Walking the items class by class, the cells of earlier classes are those below first_cell.
+  // Items are visited class by class. Cells of earlier classes have indices below first_cell.
   std::fill_n(cell_of_cluster_.begin(), clusters_, -1);
   std::fill_n(majority_.begin(), clusters_, 0);
   cells_ = 0;
@@ -87,7 +87,7 @@ void Contingency::count(std::span<const std::int32_t> truth, std::span<const std
     if (cells_ > 0 && truth[item] != cell_[cells_ - 1].true_class) first_cell = cells_;
     std::int32_t& cell = cell_of_cluster_[predicted[item]];
     if (cell < first_cell) {
-      cell = static_cast<std::int32_t>(cells_);
+      cell = cells_;
       cell_[cells_++] = {truth[item], predicted[item], 0};
     }
     majority_[predicted[item]] = std::max(majority_[predicted[item]], ++cell_[cell].items);
@@ -111,20 +111,20 @@ double Contingency::fowlkes_mallows() const {
 double Contingency::adjusted_rand() const {
   const auto [both, truth, prediction] = pairs();
   if (both == truth && both == prediction) return 1;
-  const double all = static_cast<double>(n_) * static_cast<double>(n_ - 1);
+  const double all = static_cast<double>(n_) * (n_ - 1);
   const double missed = truth - both, wrong = prediction - both, apart = all - truth - wrong;
   return 2 * (both * apart - missed * wrong) / (truth * (missed + apart) + prediction * (wrong + apart));
 }
 
 double Contingency::normalized_mutual_info(NmiAverage average) const {
-  const std::span class_sizes(class_size_.data(), static_cast<std::size_t>(classes_));
-  const std::span cluster_sizes(cluster_size_.data(), static_cast<std::size_t>(clusters_));
+  const std::span class_sizes(class_size_.data(), classes_);
+  const std::span cluster_sizes(cluster_size_.data(), clusters_);
   const bool one_class = groups(class_sizes) == 1, one_cluster = groups(cluster_sizes) == 1;
   if (one_class || one_cluster) return one_class && one_cluster ? 1 : 0;
-  const double n = static_cast<double>(n_);
+  const double n = n_;
   double information = 0;
   for (Index c = 0; c < cells_; ++c) {
-    const double items = static_cast<double>(cell_[c].items);
+    const double items = cell_[c].items;
     information +=
         items / n *
         (std::log(n * items) - std::log(class_size_[cell_[c].true_class]) - std::log(cluster_size_[cell_[c].cluster]));
@@ -136,11 +136,11 @@ double Contingency::normalized_mutual_info(NmiAverage average) const {
 
 double Contingency::purity() const {
   const std::int64_t majority = std::accumulate(majority_.begin(), majority_.begin() + clusters_, std::int64_t{0});
-  return static_cast<double>(majority) / static_cast<double>(n_);
+  return static_cast<double>(majority) / n_;
 }
 
 void Contingency::fowlkes_mallows_individual(Singletons singletons, std::span<double> values) const {
-  check(static_cast<Index>(values.size()) == n_, "[cluster metrics] ", values.size(), " values for ", n_, " items");
+  check(std::ssize(values) == n_, "[cluster metrics] ", values.size(), " values for ", n_, " items");
   for (Index i = 0; i < n_; ++i) {
     const Cell& cell = cell_[cell_of_item_[i]];
     const std::int64_t true_partners = class_size_[cell.true_class] - 1;
@@ -150,8 +150,7 @@ void Contingency::fowlkes_mallows_individual(Singletons singletons, std::span<do
     else if (cell.items == 1)
       values[i] = 0;
     else
-      values[i] = static_cast<double>(cell.items - 1) /
-                  std::sqrt(static_cast<double>(true_partners) * static_cast<double>(predicted_partners));
+      values[i] = (cell.items - 1) / std::sqrt(static_cast<double>(true_partners) * predicted_partners);
   }
 }
 

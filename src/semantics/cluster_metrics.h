@@ -3,40 +3,47 @@
 #include <span>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/index.h"
 
 namespace svnet {
 
-/// What the individual Fowlkes-Mallows score of an item is worth whose true class has no other item, and which thus has
-/// no true pair: 0, as scikit-learn takes 0/0, or NaN, to be left out of means. An item with true partners that the
-/// clustering left alone has missed them: 0 in both cases.
+/// The individual Fowlkes-Mallows score of a singleton, an item whose class has no other item. Its score is 0/0.
+/// zero: the score is 0, as in scikit-learn. skip: the score is NaN, and means leave it out.
+/// An item that has true partners but is alone in its cluster is not a singleton; its score is 0.
 enum class Singletons { zero, skip };
+template <>
+inline constexpr auto enum_names<Singletons> = std::to_array<EnumName<Singletons>>({{Singletons::zero, "zero"},
+                                                                                    {Singletons::skip, "skip"}});
 
-/// What mutual information is divided by: a mean of the two entropies.
+/// The mean of the two entropies by which mutual information is divided.
 enum class NmiAverage { arithmetic, geometric };
+template <>
+inline constexpr auto enum_names<NmiAverage> =
+    std::to_array<EnumName<NmiAverage>>({{NmiAverage::arithmetic, "arithmetic"}, {NmiAverage::geometric, "geometric"}});
 
-/// How two labellings of the same items meet: counts from which every metric follows, and the memory they need.
-/// Pairs are counted in 64 bits. Not thread-safe.
+/// The contingency table of two labellings of the same items, and the metrics that follow from it. Pairs are counted in
+/// 64 bits. Not thread-safe.
 class Contingency {
  public:
   explicit Contingency(Index max_items);
 
-  /// Both labellings: numbers in [0, max_items), not necessarily all in use. Allocates nothing. Throws Error for no
-  /// items, too many, lengths that differ and labels out of range.
+  /// Counts two labellings. Requires: at least one and at most max_items items, as many true as predicted labels, and
+  /// labels in [0, max_items); gaps are allowed. Throws Error otherwise. Allocates nothing.
   void count(std::span<const std::int32_t> truth, std::span<const std::int32_t> predicted);
 
-  // Of the labellings counted last, as scikit-learn defines them.
+  // Metrics of the labellings that were counted last, as scikit-learn defines them.
   double fowlkes_mallows() const;
   double normalized_mutual_info(NmiAverage average) const;
-  /// The share of items whose class is the most frequent one of their cluster.
+  /// The fraction of items whose class is the most frequent one in their cluster.
   double purity() const;
   double adjusted_rand() const;
 
-  /// Of item i, TP / sqrt((TP + FP)(TP + FN)) over the pairs that contain i (PAPER.md section 4); values: one per item.
+  /// Sets values[i] to TP / sqrt((TP + FP)(TP + FN)) over the pairs that contain item i (PAPER.md section 4).
   void fowlkes_mallows_individual(Singletons singletons, std::span<double> values) const;
 
  private:
-  /// The items of one class in one cluster: at least one.
+  /// One non-zero cell of the contingency table.
   struct Cell {
     std::int32_t true_class, cluster;
     std::int64_t items;
@@ -49,14 +56,14 @@ class Contingency {
   Index max_items_, n_ = 0, classes_ = 0, clusters_ = 0;  // labels in [0, classes_), [0, clusters_)
   Index cells_ = 0;
   std::vector<std::int64_t> class_size_, cluster_size_;
-  std::vector<std::int64_t> majority_;  // per cluster, the items of its most frequent class
+  std::vector<std::int64_t> majority_;  // per cluster: items of its most frequent class
   std::vector<Cell> cell_;
   std::vector<std::int32_t> cell_of_item_;
   std::vector<std::int32_t> first_of_class_, by_class_;  // items sorted by class
-  std::vector<std::int32_t> cell_of_cluster_;            // of the class at hand
+  std::vector<std::int32_t> cell_of_cluster_;            // for the class that is being counted
 };
 
-// The same of labels that are any integers.
+// The same metrics for labels that may be any integers. Throw Error for no items and for lengths that differ.
 using Labels = std::span<const std::int64_t>;
 double fowlkes_mallows(Labels truth, Labels predicted);
 std::vector<double> fowlkes_mallows_individual(Labels truth, Labels predicted,

@@ -1,13 +1,24 @@
 #include "semantics/clusterer.h"
 
+#include "base/error.h"
+
 namespace svnet {
 namespace {
 
-using Method = ClusteringOptions::Method;
-
 std::variant<Agglomerative, KMeans> algorithm(const ClusteringOptions& options, Index max_points, Index max_clusters) {
-  if (options.method == Method::kmeans) return KMeans(max_points, max_clusters, options.dimension, options.kmeans);
-  return Agglomerative(options.linkage, max_points);
+  switch (options.method) {
+    case Clustering::ward:
+      return Agglomerative(Linkage::ward, max_points);
+    case Clustering::average:
+      return Agglomerative(Linkage::average, max_points);
+    case Clustering::complete:
+      return Agglomerative(Linkage::complete, max_points);
+    case Clustering::single:
+      return Agglomerative(Linkage::single, max_points);
+    case Clustering::kmeans:
+      return KMeans(max_points, max_clusters, options.dimension, options.kmeans);
+  }
+  fail("[clustering] no algorithm has this number");
 }
 
 }  // namespace

@@ -8,24 +8,32 @@
 
 namespace svnet {
 
+/// The algorithms: agglomerative clustering by its linkage, and k-means.
+enum class Clustering { ward, average, complete, single, kmeans };
+template <>
+inline constexpr auto enum_names<Clustering> =
+    std::to_array<EnumName<Clustering>>({{Clustering::ward, name_of(Linkage::ward)},
+                                         {Clustering::average, name_of(Linkage::average)},
+                                         {Clustering::complete, name_of(Linkage::complete)},
+                                         {Clustering::single, name_of(Linkage::single)},
+                                         {Clustering::kmeans, "kmeans"}});
+
 struct ClusteringOptions {
-  enum class Method { agglomerative, kmeans };
-  Method method = Method::agglomerative;
-  Linkage linkage = Linkage::ward;
+  Clustering method = Clustering::ward;
   KMeansOptions kmeans{};
-  Index dimension = 1;  ///< of the features; k-means' tolerance needs it
+  Index dimension = 1;  ///< of the features; used by the tolerance of k-means
 };
 
-/// The clustering algorithm that the options name, and the memory it needs. Not thread-safe: one object per thread.
+/// The clustering algorithm of the options, with its memory. Not thread-safe: use one object per thread.
 class Clusterer {
  public:
   Clusterer(const ClusteringOptions& options, Index max_points, Index max_clusters);
 
-  /// labels[i] is the cluster of rows[i], numbered from 0 in order of first appearance. Problem `number` has random
-  /// numbers of its own. Allocates nothing. Throws Error for k outside [1, rows.size()].
+  /// Sets labels[i] to the cluster of rows[i]; clusters are numbered from 0 in order of first appearance. k-means draws
+  /// from the random stream (seed, number). Allocates nothing. Throws Error if k is not in [1, rows.size()].
   void cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, std::uint64_t seed,
                std::uint64_t number, std::span<std::int32_t> labels);
-  /// The same of points whose distances are already together.
+  /// The same for the points of `distances`.
   void cluster(const LowerTriangle& distances, Index k, std::uint64_t seed, std::uint64_t number,
                std::span<std::int32_t> labels);
 

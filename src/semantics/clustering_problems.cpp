@@ -12,9 +12,7 @@ namespace svnet {
 namespace {
 
 /// Uniform in [lowest, highest].
-Index between(RandomStream& random, Index lowest, Index highest) {
-  return lowest + random.below(static_cast<std::uint32_t>(highest - lowest + 1));
-}
+Index between(RandomStream& random, Index lowest, Index highest) { return lowest + random.below(highest - lowest + 1); }
 
 }  // namespace
 
@@ -63,9 +61,9 @@ void ClusteringProblems::index_views(std::span<const std::int64_t> category, std
       ++object_.back().count;
     }
     ++pose_.back().count;
-    pose_of_view_[view] = static_cast<std::int32_t>(pose_.size() - 1);
-    category_of_view_[view] = static_cast<std::int32_t>(category_.size() - 1);
-    place_[view] = static_cast<std::int32_t>(i);
+    pose_of_view_[view] = pose_.size() - 1;
+    category_of_view_[view] = category_.size() - 1;
+    place_[view] = i;
   }
 }
 
@@ -74,9 +72,8 @@ void ClusteringProblems::exclude(std::span<const std::int64_t> categories) {
     check(std::binary_search(category_name_.begin(), category_name_.end(), name), "[problems] excluded category ", name,
           " has no views");
   for (std::size_t c = 0; c < category_.size(); ++c)
-    if (std::find(categories.begin(), categories.end(), category_name_[c]) == categories.end())
-      included_.push_back(static_cast<std::int32_t>(c));
-  const auto all = static_cast<Index>(included_.size());
+    if (std::find(categories.begin(), categories.end(), category_name_[c]) == categories.end()) included_.push_back(c);
+  const Index all = included_.size();
   max_categories_ = options_.max_categories == 0 ? all : std::min(options_.max_categories, all);
 }
 
@@ -94,8 +91,8 @@ void ClusteringProblems::check_counts() const {
         " is above max_categories ", o.max_categories);
   check(o.max_objects == 0 || o.min_objects <= o.max_objects, "[problems] min_objects ", o.min_objects,
         " is above max_objects ", o.max_objects);
-  check(o.min_categories <= static_cast<Index>(included_.size()), "[problems] ", included_.size(), " of ",
-        category_.size(), " categories are left after excluding, min_categories is ", o.min_categories,
+  check(o.min_categories <= std::ssize(included_), "[problems] ", included_.size(), " of ", category_.size(),
+        " categories are left after excluding, min_categories is ", o.min_categories,
         "; exclude fewer or lower min_categories");
   for (std::int32_t c : included_)
     check(o.min_objects <= category_[c].count, "[problems] category ", category_name_[c], " has ", category_[c].count,
@@ -110,11 +107,9 @@ void ClusteringProblems::measure() {
 
   inclusion_.assign(views_.size(), 0.0);
   may_have_partner_.assign(views_.size(), 0);
-  const double category_share =
-      static_cast<double>(options_.min_categories + max_categories_) / 2 / static_cast<double>(included_.size());
+  const double category_share = static_cast<double>(options_.min_categories + max_categories_) / 2 / included_.size();
   for (std::int32_t c : included_) {
-    const double object_share =
-        static_cast<double>(options_.min_objects + most_objects(c)) / 2 / static_cast<double>(category_[c].count);
+    const double object_share = static_cast<double>(options_.min_objects + most_objects(c)) / 2 / category_[c].count;
     for (Index o = category_[c].first; o < category_[c].first + category_[c].count; ++o)
       for (Index p = object_[o].first; p < object_[o].first + object_[o].count; ++p)
         for (std::int32_t view : views_of_pose(p)) {
@@ -150,7 +145,7 @@ void ClusteringProblems::draw_poses(RandomStream& random, ClusteringProblem& pro
   auto& objects = problem.scratch_objects;
   categories.assign(included_.begin(), included_.end());
   problem.categories = between(random, options_.min_categories, max_categories_);
-  draw_without_replacement(random, categories.data(), static_cast<Index>(categories.size()), problem.categories);
+  draw_without_replacement(random, categories.data(), categories.size(), problem.categories);
   for (Index label = 0; label < problem.categories; ++label) {
     const Range all = category_[categories[label]];
     objects.resize(all.count);
@@ -159,8 +154,8 @@ void ClusteringProblems::draw_poses(RandomStream& random, ClusteringProblem& pro
     draw_without_replacement(random, objects.data(), all.count, count);
     for (Index i = 0; i < count; ++i) {
       const Range poses = object_[objects[i]];
-      problem.poses.push_back(static_cast<std::int32_t>(between(random, poses.first, poses.first + poses.count - 1)));
-      problem.labels.push_back(static_cast<std::int32_t>(label));
+      problem.poses.push_back(between(random, poses.first, poses.first + poses.count - 1));
+      problem.labels.push_back(label);
     }
   }
 }

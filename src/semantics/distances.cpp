@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "semantics/product_tile.h"
 
 namespace svnet {
@@ -21,10 +23,12 @@ constexpr double kSmallestSpread = 1e-30;
 template <class T>
 void check_finite(const T* features, Index n, Index dimension, Parallel& parallel) {
   parallel.for_chunks(n, 64, [&](Index begin, Index end, int) {
-    for (Index i = begin; i < end; ++i)
-      for (Index d = 0; d < dimension; ++d)
-        check(std::isfinite(features[i * dimension + d]), "[distances] feature ", d, " of row ", i, " is ",
-              features[i * dimension + d], "; every feature must be finite");
+    const std::span rows(features + begin * dimension, static_cast<std::size_t>((end - begin) * dimension));
+    if (const auto bad = first_not_finite(rows)) {
+      const Index at = static_cast<Index>(*bad);
+      fail("[distances] feature ", at % dimension, " of row ", begin + at / dimension, " is ", rows[*bad],
+           "; every feature must be finite");
+    }
   });
 }
 
@@ -34,7 +38,7 @@ std::vector<double> column_means(const T* features, Index n, Index dimension, Pa
   parallel.for_chunks(dimension, 64, [&](Index begin, Index end, int) {
     for (Index i = 0; i < n; ++i)
       for (Index d = begin; d < end; ++d) mean[d] += features[i * dimension + d];
-    for (Index d = begin; d < end; ++d) mean[d] /= static_cast<double>(n);
+    for (Index d = begin; d < end; ++d) mean[d] /= n;
   });
   return mean;
 }
@@ -49,15 +53,15 @@ double direct_distance(const T* x, const T* y, Index dimension) {
   return sum;
 }
 
-/// What the tiles read.
+/// The input of the tiles.
 template <class T>
 struct CentredFeatures {
   const T* features;
   Index n, dimension;
   std::vector<double> mean, squared_norm;
 
-  /// Features [first_feature, first_feature + depth) of the tile of rows from first_row on, centred, as add_products
-  /// takes them in panels of `width` rows; zeros below the last row.
+  /// Copies features [first_feature, first_feature + depth) of the kTile rows from first_row on, centred, into panels
+  /// of `width` rows, the layout of add_products. Rows after the last one are 0.
   void pack(Index first_row, Index first_feature, Index depth, Index width, double* to) const {
     for (Index panel = 0; panel < kTile; panel += width, to += width * depth)
       for (Index r = 0; r < width; ++r) {
@@ -72,8 +76,7 @@ struct CentredFeatures {
 };
 
 struct TileScratch {
-  AlignedArray<double> left{static_cast<std::size_t>(kTile * kDepth)}, right{static_cast<std::size_t>(kTile * kDepth)},
-      products{static_cast<std::size_t>(kTile * kTile)};
+  AlignedArray<double> left{kTile * kDepth}, right{kTile * kDepth}, products{kTile * kTile};
 };
 
 template <class T>
@@ -100,7 +103,7 @@ void distance_tile(const CentredFeatures<T>& x, Index i0, Index j0, TileScratch&
       row[j] = static_cast<float>(distance);
     }
   }
-  // The mirror image, line by line.
+  // Mirror the tile below the diagonal.
   for (Index i = i0; i < i1; i += 16)
     for (Index j = j0; j < j1; ++j)
       for (Index row = i; row < std::min({i + 16, i1, j}); ++row) distances.row(j)[row] = distances.row(row)[j];
@@ -116,9 +119,7 @@ bool all_rows_equal(const T* features, Index n, Index dimension) {
 }  // namespace
 
 DistanceMatrix::DistanceMatrix(Index n)
-    : size_(n),
-      stride_((n + 15) / 16 * 16),
-      values_((check(n >= 0, "[distances] ", n, " rows"), static_cast<std::size_t>(n * stride_))) {}
+    : size_(n), stride_((n + 15) / 16 * 16), values_((check(n >= 0, "[distances] ", n, " rows"), n * stride_)) {}
 
 template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
@@ -133,7 +134,7 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
         x.squared_norm[i] += centred * centred;
       }
   });
-  // Rows that are equal may still be a rounding away from their mean.
+  // Equal rows may differ from their mean by a rounding error.
   const double spread = *std::max_element(x.squared_norm.begin(), x.squared_norm.end());
   check(spread >= kSmallestSpread || all_rows_equal(features, n, dimension), "[distances] no row is farther than ",
         std::sqrt(spread), " from the mean, too little for float32; scale the features up");
@@ -147,8 +148,8 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
     for (Index j = i; j < n; j += kTile) tiles.push_back({i, j});
   std::vector<TileScratch> scratch(parallel.threads());
   const Share share = share_of(communicator, 0, tiles.size());
-  parallel.for_chunks(static_cast<Index>(share.last - share.first), 1, [&](Index begin, Index, int worker) {
-    const Tile& tile = tiles[share.first + static_cast<std::uint64_t>(begin)];
+  parallel.for_chunks(share.last - share.first, 1, [&](Index begin, Index, int worker) {
+    const Tile& tile = tiles[share.first + begin];
     distance_tile(x, tile.i, tile.j, scratch[worker], distances);
   });
   communicator.all_reduce(distances.values());

@@ -1,5 +1,5 @@
 // Greedy k-means++: Arthur and Vassilvitskii, "k-means++: the advantages of careful seeding" (SODA 2007), section 5.
-// Distances to means from distances between points: Schoenberg 1935; the "kernel k-means" form of Lloyd.
+// Distances to means computed from distances between points: Schoenberg 1935; the "kernel k-means" form of Lloyd.
 #include "semantics/kmeans.h"
 
 #include <algorithm>
@@ -26,19 +26,19 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
       initial_(max_clusters),
       closest_(max_points + 31),
       cumulative_(max_points),
-      cluster_sum_(static_cast<std::size_t>(max_clusters * (max_points + 31))),
+      cluster_sum_(max_clusters * (max_points + 31)),
       cluster_size_(max_clusters),
       half_spread_(max_clusters),
       shift_(max_clusters),
       scale_(max_clusters),
-      behind_(max_points),
-      next_behind_(max_points),
+      member_of_(max_points),
+      next_member_of_(max_points),
       nearest_(max_points + 31),
-      nearest_number_(max_points + 31),
+      nearest_index_(max_points + 31),
       labels_(max_points),
       previous_labels_(max_points),
       members_(max_clusters),
-      number_(max_clusters) {
+      label_of_cluster_(max_clusters) {
   check(dimension >= 1, "[kmeans] the features have dimension ", dimension, "; at least 1 is needed");
   check(options.n_init >= 1, "[kmeans] n_init is ", options.n_init, "; at least 1 is needed");
   check(options.max_iterations >= 1, "[kmeans] max_iterations is ", options.max_iterations, "; at least 1 is needed");
@@ -47,9 +47,9 @@ KMeans::KMeans(Index max_points, Index max_clusters, Index dimension, const KMea
 
 double KMeans::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                        RandomStream random, std::span<std::int32_t> labels) {
-  check_sizes(static_cast<Index>(rows.size()), k, labels.size());
-  distance_.gather(distances, rows);
-  start(static_cast<Index>(rows.size()), k);
+  check_sizes(rows.size(), k, labels.size());
+  distance_.copy_rows(distances, rows);
+  start(rows.size(), k);
   return best_run(random, labels);
 }
 
@@ -62,22 +62,22 @@ double KMeans::cluster(const LowerTriangle& distances, Index k, RandomStream ran
 
 double KMeans::run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
                         std::span<const std::int32_t> initial, std::span<std::int32_t> labels) {
-  const auto n = static_cast<Index>(rows.size()), k = static_cast<Index>(initial.size());
+  const Index n = rows.size(), k = initial.size();
   check_sizes(n, k, labels.size());
   for (std::int32_t point : initial)
     check(point >= 0 && point < n, "[kmeans] initial centre ", point, " is not one of the ", n, " points");
-  distance_.gather(distances, rows);
+  distance_.copy_rows(distances, rows);
   start(n, k);
   std::copy(initial.begin(), initial.end(), initial_.begin());
   return lloyd(labels);
 }
 
-void KMeans::check_sizes(Index points, Index k, std::size_t labels) const {
+void KMeans::check_sizes(Index points, Index k, Index labels) const {
   check(k >= 1 && k <= points, "[kmeans] cannot make ", k, " clusters of ", points, " points; 1 to ", points,
         " are possible");
   check(points <= max_points_ && k <= max_clusters_, "[kmeans] ", points, " points in ", k,
         " clusters, but memory was made for ", max_points_, " in ", max_clusters_);
-  check(static_cast<Index>(labels) == points, "[kmeans] ", labels, " labels for ", points, " points");
+  check(labels == points, "[kmeans] ", labels, " labels for ", points, " points");
 }
 
 void KMeans::start(Index points, Index k) {
@@ -88,15 +88,15 @@ void KMeans::start(Index points, Index k) {
     float* row = distance_.row(i);
     for (Index j = 0; j < i; ++j) total += distance_.row(j)[i] = row[j];
     row[i] = 0;
-    std::fill_n(row + n_, (n_ + 15) / 16 * 16 - n_, 0.0f);  // a triangle's paddings hold anything
+    std::fill_n(row + n_, (n_ + 15) / 16 * 16 - n_, 0.0f);  // the padding of a triangle is undefined
   }
-  // The variance of all features together is the mean of the squared distances of ordered pairs, halved.
-  const double variance = total / (static_cast<double>(n_) * static_cast<double>(n_));
-  tolerance_ = options_.tolerance * variance / static_cast<double>(dimension_);
+  // The sum of the variances of all features is half the mean squared distance of ordered pairs.
+  const double variance = total / (static_cast<double>(n_) * n_);
+  tolerance_ = options_.tolerance * variance / dimension_;
 }
 
 double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
-  const std::span run_labels(labels_.data(), static_cast<std::size_t>(n_));
+  const std::span run_labels(labels_.data(), n_);
   double best = kInfinity;
   for (Index run = 0; run < options_.n_init; ++run) {
     choose_initial(random);
@@ -106,17 +106,17 @@ double KMeans::best_run(RandomStream random, std::span<std::int32_t> labels) {
       std::copy(run_labels.begin(), run_labels.end(), labels.begin());
     }
   }
-  std::fill_n(number_.begin(), k_, -1);
+  std::fill_n(label_of_cluster_.begin(), k_, -1);
   std::int32_t next = 0;
   for (auto& label : labels) {
-    if (number_[label] < 0) number_[label] = next++;
-    label = number_[label];
+    if (label_of_cluster_[label] < 0) label_of_cluster_[label] = next++;
+    label = label_of_cluster_[label];
   }
   return best;
 }
 
 void KMeans::choose_initial(RandomStream& random) {
-  initial_[0] = static_cast<std::int32_t>(random.below(static_cast<std::uint32_t>(n_)));
+  initial_[0] = random.below(n_);
   std::copy_n(distance_.row(initial_[0]), n_, closest_.data());
   std::fill_n(closest_.data() + n_, 31, 0.0f);
   const Index trials = 2 + static_cast<Index>(std::log(static_cast<double>(k_)));
@@ -131,7 +131,7 @@ void KMeans::choose_initial(RandomStream& random) {
       const double potential = kmeans::potential(closest_.data(), distance_.row(candidate), n_);
       if (potential < best) {
         best = potential;
-        initial_[c] = static_cast<std::int32_t>(candidate);
+        initial_[c] = candidate;
       }
     }
     kmeans::take_minimum(distance_.row(initial_[c]), n_, closest_.data());
@@ -154,12 +154,12 @@ double KMeans::lloyd(std::span<std::int32_t> labels) {
     if (shift <= tolerance_) break;
     std::copy(labels.begin(), labels.end(), previous_labels_.begin());
   }
-  assign(labels);  // so that the labels match the last centres
+  assign(labels);  // to the last centres
   return inertia();
 }
 
 void KMeans::start_at_initial() {
-  std::fill_n(behind_.begin(), n_, -1);
+  std::fill_n(member_of_.begin(), n_, -1);
   for (Index c = 0; c < k_; ++c) {
     std::copy_n(distance_.row(initial_[c]), n_, sum_of(c));
     cluster_size_[c] = 1;
@@ -171,21 +171,21 @@ double KMeans::to_centre(Index point, Index cluster) const {
   return sum_of(cluster)[point] / cluster_size_[cluster] - half_spread_[cluster];
 }
 
-/// The nearest centre of every point; of equally near ones the first.
+/// Assigns every point to its nearest centre, the first one in a tie.
 void KMeans::assign(std::span<std::int32_t> labels) {
   for (Index c = 0; c < k_; ++c) scale_[c] = cluster_size_[c] == 0 ? 0 : 1 / cluster_size_[c];
   kmeans::assign(cluster_sum_.data(), distance_.stride(), scale_.data(), half_spread_.data(), k_, n_, nearest_.data(),
-                 nearest_number_.data());
-  for (Index i = 0; i < n_; ++i) labels[i] = static_cast<std::int32_t>(nearest_number_[i]);
+                 nearest_index_.data());
+  for (Index i = 0; i < n_; ++i) labels[i] = static_cast<std::int32_t>(nearest_index_[i]);
 }
 
-/// next_behind_: the labels, except that clusters without a point take the farthest points. shift_[c] becomes the sum
-/// of the squared distances of these points to the centre as it is.
+/// Sets next_member_of_ to the labels, except that clusters without a point take the farthest points. Sets shift_[c] to
+/// the sum of the squared distances of the points of cluster c to its present centre.
 void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
   std::fill_n(members_.begin(), k_, 0);
   std::fill_n(shift_.begin(), k_, 0.0);
   for (Index i = 0; i < n_; ++i) {
-    next_behind_[i] = labels[i];
+    next_member_of_[i] = labels[i];
     ++members_[labels[i]];
     shift_[labels[i]] += nearest_[i];
   }
@@ -193,7 +193,7 @@ void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
     if (members_[c] > 0) continue;
     Index farthest = -1;
     for (Index i = 0; i < n_; ++i) {
-      const bool movable = next_behind_[i] == labels[i] && members_[labels[i]] > 1 && nearest_[i] > 0;
+      const bool movable = next_member_of_[i] == labels[i] && members_[labels[i]] > 1 && nearest_[i] > 0;
       if (movable && (farthest < 0 || nearest_[i] > nearest_[farthest])) farthest = i;
     }
     if (farthest < 0) return;  // fewer distinct points than clusters
@@ -201,19 +201,19 @@ void KMeans::fill_empty_clusters(std::span<const std::int32_t> labels) {
     --members_[labels[farthest]];
     if (cluster_size_[c] > 0) shift_[c] += std::max(0.0, to_centre(farthest, c));
     ++members_[c];
-    next_behind_[farthest] = static_cast<std::int32_t>(c);
+    next_member_of_[farthest] = c;
   }
 }
 
-/// Makes the centres the means of next_behind_; returns the sum of the squares of their moves. The squared distance of
-/// an old centre to the mean of S is the mean squared distance of S to the old centre, less half the spread of S.
+/// Moves the centres to the means of next_member_of_. Returns the sum of the squared moves. The squared distance of an
+/// old centre to the mean of S is the mean squared distance of S to the old centre, minus half the spread of S.
 double KMeans::move_centres() {
-  if (behind_[0] < 0) {  // the centres are initial points so far
+  if (member_of_[0] < 0) {  // the centres are still the initial points
     std::fill_n(cluster_sum_.data(), k_ * distance_.stride(), 0.0);
     std::fill_n(cluster_size_.begin(), k_, 0.0);
   }
   for (Index i = 0; i < n_; ++i) {
-    const std::int32_t from = behind_[i], to = next_behind_[i];
+    const std::int32_t from = member_of_[i], to = next_member_of_[i];
     if (from == to) continue;
     if (from >= 0) {
       kmeans::add_row(distance_.row(i), -1, n_, sum_of(from));
@@ -221,10 +221,10 @@ double KMeans::move_centres() {
     }
     kmeans::add_row(distance_.row(i), 1, n_, sum_of(to));
     ++cluster_size_[to];
-    behind_[i] = to;
+    member_of_[i] = to;
   }
   std::fill_n(half_spread_.begin(), k_, 0.0);
-  for (Index i = 0; i < n_; ++i) half_spread_[behind_[i]] += sum_of(behind_[i])[i];
+  for (Index i = 0; i < n_; ++i) half_spread_[member_of_[i]] += sum_of(member_of_[i])[i];
   double total = 0;
   for (Index c = 0; c < k_; ++c) {
     if (cluster_size_[c] == 0) continue;

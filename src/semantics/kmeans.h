@@ -10,41 +10,41 @@
 namespace svnet {
 
 struct KMeansOptions {
-  Index n_init = 10;           ///< runs, of which the one with the lowest inertia is kept
-  Index max_iterations = 300;  ///< of one run
-  double tolerance = 1e-4;  ///< a run ends when its centres move less: sum of squares, over the mean feature variance
-  std::function<void()> after_iteration{};  ///< if any, called after each one: to stop by an exception
+  Index n_init = 10;           ///< runs; the one with the lowest inertia is kept
+  Index max_iterations = 300;  ///< per run
+  /// A run ends if the sum of the squared moves of its centres, over the mean variance of a feature, is at most this.
+  double tolerance = 1e-4;
+  std::function<void()> after_iteration{};  ///< called after each iteration, if set; an exception stops the clustering
 };
 
-/// k-means of some rows of a distance matrix with the semantics of scikit-learn's KMeans(algorithm="lloyd"), and the
-/// memory it needs. Greedy k-means++ with 2 + floor(ln k) trials, then Lloyd; a cluster that lost all its points takes
-/// the point farthest from its centre (ties: the first; a point that is alone in its cluster stays).
+/// k-means of rows of a distance matrix, as scikit-learn's KMeans(algorithm="lloyd"), with its memory. Greedy k-means++
+/// with 2 + floor(ln k) trials, then Lloyd. A cluster that lost all its points takes the point that is farthest from
+/// its centre (ties: the first; a point that is alone in its cluster stays).
 ///
-/// Centres never exist. The squared distance of point i to the mean of a set S is
-/// mean_{j in S} D_ij - 1/2 mean_{j,l in S} D_jl, so that the cost does not depend on the dimension of the features.
-/// All sums are in double. Not thread-safe: one object per thread.
+/// Centres are not computed. The squared distance of point i to the mean of a set S is
+/// mean_{j in S} D_ij - 1/2 mean_{j,l in S} D_jl, so the cost does not depend on the dimension of the features.
+/// All sums are in double. Not thread-safe: use one object per thread.
 class KMeans {
  public:
-  /// `dimension` of the features: only the tolerance needs it. Throws Error for options below 1 or a negative
-  /// tolerance.
+  /// `dimension`: of the features, for the tolerance. Throws Error for a count below 1 or a negative tolerance.
   KMeans(Index max_points, Index max_clusters, Index dimension, const KMeansOptions& options = {});
 
-  /// labels[i] is the cluster of rows[i], numbered from 0 in order of first appearance. Returns the inertia, the sum of
-  /// squared distances to the centres. With fewer than k distinct points there are fewer clusters. Allocates nothing.
-  /// Throws Error for k outside [1, rows.size()] and for sizes beyond those of the constructor.
+  /// Sets labels[i] to the cluster of rows[i]; clusters are numbered from 0 in order of first appearance. Fewer than k
+  /// distinct points give fewer clusters. Returns the inertia: the sum of squared distances to the centres. Allocates
+  /// nothing. Throws Error if k is not in [1, rows.size()], or a size is above that of the constructor.
   double cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k, RandomStream random,
                  std::span<std::int32_t> labels);
 
-  /// The same of points whose distances are already together.
+  /// The same for the points of `distances`.
   double cluster(const LowerTriangle& distances, Index k, RandomStream random, std::span<std::int32_t> labels);
 
-  /// One run that starts from the points initial[c] in [0, rows.size()) as centres; k is their number. Labels are the
-  /// numbers of the centres.
+  /// One run from given centres: the points initial[c] in [0, rows.size()), with k = initial.size(). Sets labels[i] to
+  /// the index of a centre. Returns the inertia.
   double run_from(const DistanceMatrix& distances, std::span<const std::int32_t> rows,
                   std::span<const std::int32_t> initial, std::span<std::int32_t> labels);
 
  private:
-  void check_sizes(Index points, Index k, std::size_t labels) const;
+  void check_sizes(Index points, Index k, Index labels) const;
   void start(Index points, Index k);
   double best_run(RandomStream random, std::span<std::int32_t> labels);
   void choose_initial(RandomStream& random);
@@ -64,16 +64,16 @@ class KMeans {
   ProblemDistances distance_;          // (n, n)
   std::vector<std::int32_t> initial_;  // (k) points
   AlignedArray<float> closest_;        // (n) k-means++: squared distance to the nearest centre
-  std::vector<double> cumulative_;     // (n) its sums
-  AlignedArray<double> cluster_sum_;   // (k, stride) sum of D_ij over the points j behind centre c
+  std::vector<double> cumulative_;     // (n) prefix sums of closest_
+  AlignedArray<double> cluster_sum_;   // (k, stride) sum of D_ij over the points j that are averaged into centre c
   std::vector<double> cluster_size_, half_spread_, shift_;  // (k) half_spread_: 1/2 mean_{j,l} D_jl
   std::vector<double> scale_;                               // (k) 1 / cluster_size_, or 0
-  std::vector<std::int32_t> behind_, next_behind_;          // (n) the centre that a point is averaged into
+  std::vector<std::int32_t> member_of_, next_member_of_;    // (n) the centre that a point is averaged into
   AlignedArray<double> nearest_;                            // (n) squared distance to the centre of the label
-  AlignedArray<double> nearest_number_;                     // (n) the label as a float
+  AlignedArray<double> nearest_index_;                      // (n) the label as a double
   std::vector<std::int32_t> labels_, previous_labels_;      // (n)
-  std::vector<std::int32_t> members_;                       // (k) points behind the next centre
-  std::vector<std::int32_t> number_;                        // (k) of a cluster, in order of first appearance
+  std::vector<std::int32_t> members_;                       // (k) points that are averaged into the next centre
+  std::vector<std::int32_t> label_of_cluster_;              // (k) in order of first appearance; -1: not yet seen
 };
 
 }  // namespace svnet

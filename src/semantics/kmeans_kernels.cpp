@@ -18,7 +18,7 @@ using Floats = hn::Rebind<float, Doubles>;
 double potential_here(const float* closest, const float* row, Index n) {
   const Doubles d;
   const Floats f;
-  const auto lanes = static_cast<Index>(hn::Lanes(d));
+  const Index lanes = hn::Lanes(d);
   auto sum0 = hn::Zero(d), sum1 = hn::Zero(d);
   for (Index i = 0; i < n; i += 2 * lanes) {
     sum0 = hn::Add(sum0, hn::PromoteTo(d, hn::Min(hn::Load(f, closest + i), hn::Load(f, row + i))));
@@ -29,7 +29,7 @@ double potential_here(const float* closest, const float* row, Index n) {
 
 void take_minimum_here(const float* row, Index n, float* closest) {
   const hn::CappedTag<float, 16> f;
-  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(f)))
+  for (Index i = 0; i < n; i += hn::Lanes(f))
     hn::Store(hn::Min(hn::Load(f, closest + i), hn::Load(f, row + i)), f, closest + i);
 }
 
@@ -37,7 +37,7 @@ void add_row_here(const float* row, double factor, Index n, double* sum) {
   const Doubles d;
   const Floats f;
   const auto by = hn::Set(d, factor);
-  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d)))
+  for (Index i = 0; i < n; i += hn::Lanes(d))
     hn::Store(hn::MulAdd(by, hn::PromoteTo(d, hn::Load(f, row + i)), hn::Load(d, sum + i)), d, sum + i);
 }
 
@@ -45,18 +45,18 @@ void assign_here(const double* sum, Index stride, const double* scale, const dou
                  double* nearest, double* label) {
   const Doubles d;
   const auto one = hn::Set(d, 1.0);
-  for (Index i = 0; i < n; i += static_cast<Index>(hn::Lanes(d))) {
-    auto best = hn::Set(d, std::numeric_limits<double>::infinity()), best_number = hn::Zero(d), number = hn::Zero(d);
-    for (Index c = 0; c < k; ++c, number = hn::Add(number, one)) {
+  for (Index i = 0; i < n; i += hn::Lanes(d)) {
+    auto best = hn::Set(d, std::numeric_limits<double>::infinity()), best_index = hn::Zero(d), index = hn::Zero(d);
+    for (Index c = 0; c < k; ++c, index = hn::Add(index, one)) {
       if (scale[c] == 0) continue;
       const auto mean = hn::Mul(hn::Load(d, sum + c * stride + i), hn::Set(d, scale[c]));
       const auto distance = hn::Max(hn::Zero(d), hn::Sub(mean, hn::Set(d, half_spread[c])));
       const auto nearer = hn::Lt(distance, best);
       best = hn::IfThenElse(nearer, distance, best);
-      best_number = hn::IfThenElse(nearer, number, best_number);
+      best_index = hn::IfThenElse(nearer, index, best_index);
     }
     hn::Store(best, d, nearest + i);
-    hn::Store(best_number, d, label + i);
+    hn::Store(best_index, d, label + i);
   }
 }
 

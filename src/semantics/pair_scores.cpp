@@ -8,7 +8,7 @@ namespace svnet {
 
 PairScores::PairScores(Index max_categories)
     : max_categories_(max_categories),
-      cell_(static_cast<std::size_t>(max_categories * max_categories)),
+      cell_(max_categories * max_categories),
       class_size_(max_categories),
       cluster_size_(max_categories) {}
 
@@ -20,7 +20,7 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
     ++class_size_[truth[i]];
     ++cluster_size_[prediction[i]];
   }
-  // Every item counts its own pairs, so the sums are over ordered pairs.
+  // Every item counts its own pairs, so the sums run over ordered pairs.
   std::int64_t both = 0, in_truth = 0, in_prediction = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const std::int64_t together = cell_[truth[i] * max_categories_ + prediction[i]] - 1;
@@ -29,18 +29,17 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
     both += together;
     in_truth += true_partners;
     in_prediction += predicted_partners;
-    // 0/0 counts as 0: without pairs together there is none in the numerator.
-    const auto pairs = static_cast<double>(std::max<std::int64_t>(true_partners * predicted_partners, 1));
-    individual[i] = static_cast<double>(together) / std::sqrt(pairs);
+    // 0/0 becomes 0/1: without a true or predicted partner the numerator is 0.
+    const double pairs = std::max<std::int64_t>(true_partners * predicted_partners, 1);
+    individual[i] = together / std::sqrt(pairs);
     if (singletons == Singletons::skip && true_partners == 0) individual[i] = std::numeric_limits<double>::quiet_NaN();
   }
   for (std::size_t i = 0; i < n; ++i) {
     cell_[truth[i] * max_categories_ + prediction[i]] = 0;
     class_size_[truth[i]] = cluster_size_[prediction[i]] = 0;
   }
-  const auto tp = static_cast<double>(both);
-  return both == 0 ? 0
-                   : std::sqrt(tp / static_cast<double>(in_truth)) * std::sqrt(tp / static_cast<double>(in_prediction));
+  const double tp = both;
+  return both == 0 ? 0 : std::sqrt(tp / in_truth) * std::sqrt(tp / in_prediction);
 }
 
 }  // namespace svnet

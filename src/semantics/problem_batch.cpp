@@ -6,16 +6,14 @@
 namespace svnet {
 namespace {
 
-constexpr Index kChunk = 512;                 // problems drawn and sorted at once
-constexpr Index kRowChunk = 16;               // matrix rows served at once
-constexpr Index kMaxItems = Index{1} << 22;   // of all problems together
-constexpr Index kMaxFloats = Index{1} << 25;  // of all triangles together, unless one problem needs more
-constexpr Index kAhead = 8;                   // items whose memory is asked for before their turn
+constexpr Index kChunk = 512;                 // problems that are drawn and sorted as one chunk
+constexpr Index kRowChunk = 16;               // matrix rows that are copied as one chunk
+constexpr Index kMaxItems = Index{1} << 22;   // items of all problems
+constexpr Index kMaxFloats = Index{1} << 25;  // floats of all triangles; one problem may need more
+constexpr Index kAhead = 8;                   // prefetch distance in items
 constexpr Index kLine = LowerTriangle::kLine;
 
-Index capacity_for(Index max_items) {
-  return std::clamp<Index>(kMaxItems / max_items, 1, static_cast<Index>(ProblemBatch::kMaxProblems));
-}
+Index capacity_for(Index max_items) { return std::clamp<Index>(kMaxItems / max_items, 1, ProblemBatch::kMaxProblems); }
 
 Index chunks_of(Index problems) { return (problems + kChunk - 1) / kChunk; }
 
@@ -30,47 +28,47 @@ ProblemBatch::ProblemBatch(const DistanceMatrix& distances, const ClusteringProb
       item_count_(capacity_),
       category_count_(capacity_),
       offset_(capacity_ + 1),
-      rows_(static_cast<std::size_t>(capacity_ * max_items_), AlignedArray<std::int32_t>::Contents::undefined),
-      next_item_(static_cast<std::size_t>(chunks_of(capacity_) * problems.views())),
+      rows_(capacity_ * max_items_, AlignedArray<std::int32_t>::Contents::undefined),
+      next_item_(chunks_of(capacity_) * problems.views()),
       first_item_(problems.views() + 1),
-      items_(static_cast<std::size_t>(capacity_ * max_items_), AlignedArray<Item>::Contents::undefined),
+      items_(capacity_ * max_items_, AlignedArray<Item>::Contents::undefined),
       triangle_room_(
           std::max(LowerTriangle::size(max_items_), std::min(kMaxFloats, capacity_ * LowerTriangle::size(max_items_)))),
-      triangles_(static_cast<std::size_t>(triangle_room_), AlignedArray<float>::Contents::undefined) {
-  const std::size_t words = static_cast<std::size_t>(problems.views() + 63) / 64;
+      triangles_(triangle_room_, AlignedArray<float>::Contents::undefined) {
+  const std::size_t words = (problems.views() + 63) / 64;
   for (int i = 0; i < parallel.threads(); ++i)
     drawers_.push_back(
         {problems.new_problem(), std::vector<std::uint64_t>(words), std::vector<std::uint64_t>((words + 63) / 64)});
 }
 
 std::uint64_t ProblemBatch::draw(std::uint64_t seed, std::uint64_t first, std::uint64_t wanted) {
-  drawn_ = static_cast<Index>(std::min<std::uint64_t>(wanted, static_cast<std::uint64_t>(capacity_)));
+  drawn_ = std::min<std::uint64_t>(wanted, capacity_);
   parallel_.for_chunks(drawn_, kChunk, [&](Index begin, Index end, int worker) {
     draw_chunk(seed, first, begin, end, drawers_[worker]);
   });
-  keep_what_fits();
+  drop_what_does_not_fit();
   sort_items();
-  parallel_.for_chunks(problems_.views(), kRowChunk, [&](Index begin, Index end, int) { serve_rows(begin, end); });
-  return static_cast<std::uint64_t>(drawn_);
+  parallel_.for_chunks(problems_.views(), kRowChunk, [&](Index begin, Index end, int) { copy_rows(begin, end); });
+  return drawn_;
 }
 
 void ProblemBatch::draw_chunk(std::uint64_t seed, std::uint64_t first, Index begin, Index end, Drawer& drawer) {
   for (Index p = begin; p < end; ++p) {
     auto& problem = drawer.problem;
-    problems_.draw(seed, first + static_cast<std::uint64_t>(p), problem);
-    item_count_[p] = static_cast<std::int32_t>(problem.rows.size());
-    category_count_[p] = static_cast<std::int32_t>(problem.categories);
+    problems_.draw(seed, first + p, problem);
+    item_count_[p] = problem.rows.size();
+    category_count_[p] = problem.categories;
     for (const std::int32_t row : problem.rows) {
-      const auto place = static_cast<std::uint32_t>(problems_.place_of_view(row));
+      const std::uint32_t place = problems_.place_of_view(row);
       drawer.places[place / 64] |= std::uint64_t{1} << place % 64;
       drawer.occupied[place / 4096] |= std::uint64_t{1} << place / 64 % 64;
     }
     std::int32_t* sorted = rows_.data() + p * max_items_;
     for (std::size_t block = 0; block < drawer.occupied.size(); ++block) {
       for (std::uint64_t words = drawer.occupied[block]; words != 0; words &= words - 1) {
-        const std::size_t word = 64 * block + static_cast<std::size_t>(std::countr_zero(words));
+        const std::size_t word = 64 * block + std::countr_zero(words);
         for (std::uint64_t bits = drawer.places[word]; bits != 0; bits &= bits - 1)
-          *sorted++ = problems_.view_at(static_cast<Index>(64 * word) + std::countr_zero(bits));
+          *sorted++ = problems_.view_at(64 * word + std::countr_zero(bits));
         drawer.places[word] = 0;
       }
       drawer.occupied[block] = 0;
@@ -78,15 +76,15 @@ void ProblemBatch::draw_chunk(std::uint64_t seed, std::uint64_t first, Index beg
   }
 }
 
-void ProblemBatch::keep_what_fits() {
+void ProblemBatch::drop_what_does_not_fit() {
   offset_[0] = 0;
   for (Index p = 0; p < drawn_; ++p) {
     offset_[p + 1] = offset_[p] + LowerTriangle::size(item_count_[p]);
-    if (offset_[p + 1] > triangle_room_) drawn_ = p;  // never the first: there is room for the largest problem
+    if (offset_[p + 1] > triangle_room_) drawn_ = p;  // p > 0: the largest problem fits
   }
 }
 
-/// Counting sort: every chunk counts its items per row, then knows where to put them.
+/// Counting sort: every chunk counts its items per row, then writes them to its own range of items_.
 void ProblemBatch::sort_items() {
   const Index views = problems_.views(), chunks = chunks_of(drawn_);
   const auto of_chunk = [&](Index begin) { return next_item_.data() + begin / kChunk * views; };
@@ -116,15 +114,16 @@ void ProblemBatch::sort_items() {
   });
 }
 
-void ProblemBatch::serve_rows(Index begin, Index end) {
+/// Copies the distances of matrix rows [begin, end) to the triangles of all problems that need them.
+void ProblemBatch::copy_rows(Index begin, Index end) {
   const std::uint32_t last = first_item_[end];
   for (Index row = begin; row < end; ++row) {
     const float* from = matrix_.row(row);
-    // The next row comes in while this one is served, in equal parts per item.
+    // The next row is prefetched while this one is copied: an equal part of it per item.
     const Index count = first_item_[row + 1] - first_item_[row];
-    const float* coming = row + 1 < end ? matrix_.row(row + 1) : from;
-    const Index coming_lines = row + 1 < end ? (row + 1 + kLine) / kLine : 0;
-    const Index lines_per_item = count == 0 ? 0 : (coming_lines + count - 1) / count;
+    const float* next_row = row + 1 < end ? matrix_.row(row + 1) : from;
+    const Index next_lines = row + 1 < end ? (row + 1 + kLine) / kLine : 0;
+    const Index lines_per_item = count == 0 ? 0 : (next_lines + count - 1) / count;
     Index line = 0;
     for (std::uint32_t i = first_item_[row]; i < first_item_[row + 1]; ++i) {
       if (i + kAhead < last) {
@@ -136,8 +135,8 @@ void ProblemBatch::serve_rows(Index begin, Index end) {
           __builtin_prefetch(to + j, 1);
         }
       }
-      for (Index n = 0; n < lines_per_item && line < coming_lines; ++n, ++line)
-        __builtin_prefetch(coming + line * kLine);
+      for (Index n = 0; n < lines_per_item && line < next_lines; ++n, ++line)
+        __builtin_prefetch(next_row + line * kLine);
       const Item item = items_[i];
       const std::int32_t* list = rows_.data() + item.problem * max_items_;
       float* to = triangles_.data() + offset_[item.problem] + LowerTriangle::row_offset(item.position);

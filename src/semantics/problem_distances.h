@@ -8,24 +8,24 @@
 
 namespace svnet {
 
-/// The distances between the points of one problem as a square matrix in a thread's own memory, for an algorithm to
-/// work in. Only the part below the diagonal is filled here: row i, entries 0 to i - 1.
+/// The distances between the points of one problem as a square matrix, the working memory of a clustering algorithm.
+/// The copy functions fill only the part below the diagonal: elements 0 to i - 1 of row i.
 class ProblemDistances {
  public:
   explicit ProblemDistances(Index max_points)
-      : max_points_(max_points), values_(static_cast<std::size_t>((max_points + 3) * stride_for(max_points))) {}
+      : max_points_(max_points), values_((max_points + 3) * stride_for(max_points)) {}
 
   Index max_points() const { return max_points_; }
   Index stride() const { return stride_; }
   float* row(Index i) { return values_.data() + i * stride_; }
   const float* row(Index i) const { return values_.data() + i * stride_; }
 
-  /// To at most max_points points; the distances are undefined.
+  /// Sets the number of points; the distances are undefined afterwards. Requires: points <= max_points().
   void resize(Index points) { stride_ = stride_for(points); }
 
-  /// At most max_points rows. Below the last row there is memory for three more.
-  void gather(const DistanceMatrix& distances, std::span<const std::int32_t> rows) {
-    const auto n = static_cast<Index>(rows.size());
+  /// Copies the distances between some rows of a matrix. Requires: rows.size() <= max_points().
+  void copy_rows(const DistanceMatrix& distances, std::span<const std::int32_t> rows) {
+    const Index n = rows.size();
     resize(n);
     for (Index i = 1; i < n; ++i) {
       const float* from = distances.row(rows[i]);
@@ -34,7 +34,7 @@ class ProblemDistances {
     }
   }
 
-  /// At most max_points points.
+  /// Copies a triangle. Requires: triangle.points <= max_points().
   void copy(const LowerTriangle& triangle) {
     resize(triangle.points);
     const float* from = triangle.values;
@@ -46,11 +46,11 @@ class ProblemDistances {
   }
 
  private:
-  /// Rows are whole lines, an odd number of them, so that a column's entries spread over the sets of the cache.
+  /// A row takes an odd number of cache lines, so that the elements of a column spread over the sets of the cache.
   static Index stride_for(Index points) { return 16 * ((points + 15) / 16 | 1); }
 
   Index max_points_, stride_ = 0;
-  AlignedArray<float> values_;
+  AlignedArray<float> values_;  // three rows more than points: kernels read blocks of four rows
 };
 
 }  // namespace svnet

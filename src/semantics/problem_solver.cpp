@@ -7,7 +7,7 @@
 namespace svnet {
 namespace {
 
-constexpr Index kChunk = 64;  // problems that a thread takes at once
+constexpr Index kChunk = 64;  // problems that a thread solves as one chunk
 
 const DistanceMatrix& checked(const DistanceMatrix& distances, const ClusteringProblems& problems) {
   check(distances.size() == problems.views(), "[scores] distances of ", distances.size(), " views, but problems of ",
@@ -30,7 +30,7 @@ ProblemSolver::ProblemSolver(const DistanceMatrix& distances, const ClusteringPr
                         ScoreSums(problems.views())});
 }
 
-/// Asks for the memory of a problem while another one is solved.
+/// Prefetches the distances of a problem while the one before it is solved.
 void ProblemSolver::prefetch(Index problem) const {
   const LowerTriangle triangle = batch_.distances(problem);
   const float* end = triangle.values + LowerTriangle::size(triangle.points);
@@ -42,7 +42,7 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
   const std::size_t items = rows.size();
   const std::span truth(worker.truth.data(), items), prediction(worker.prediction.data(), items);
   const std::span individual(worker.individual.data(), items);
-  // Items stand together by category.
+  // Items are sorted by category.
   std::int32_t label = -1, category = -1;
   for (std::size_t i = 0; i < items; ++i) {
     const std::int32_t of_item = problems_.category_of_view(rows[i]);
@@ -72,15 +72,15 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
 void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {
   while (first < last) {
     const std::uint64_t count = batch_.draw(scoring_.seed, first, last - first);
-    parallel_.for_chunks(static_cast<Index>(count), kChunk, [&](Index begin, Index end, int worker) {
+    parallel_.for_chunks(count, kChunk, [&](Index begin, Index end, int worker) {
       for (Index p = begin; p < end; ++p) {
         if (p + 1 < end) prefetch(p + 1);
-        solve_one(p, first + static_cast<std::uint64_t>(p), workers_[worker]);
+        solve_one(p, first + p, workers_[worker]);
       }
     });
     first += count;
   }
-  for (auto& worker : workers_) sums.take(worker.sums);
+  for (auto& worker : workers_) sums.add_and_clear(worker.sums);
 }
 
 }  // namespace svnet

@@ -9,7 +9,7 @@
 
 namespace svnet {
 
-/// How problems are drawn, clustered and scored.
+/// Options for drawing, clustering and scoring problems.
 struct ProblemScoring {
   std::uint64_t seed = 0;
   Singletons singletons = Singletons::zero;
@@ -19,16 +19,16 @@ struct ProblemScoring {
 /// Solves clustering problems and sums the scores of their views. Nothing is allocated per problem.
 class ProblemSolver {
  public:
-  /// Keeps references to all but the options; `parallel` must keep its number of threads. Throws Error where distances
-  /// and problems differ in the number of views.
+  /// Keeps references to all arguments but `scoring`. Requires: `parallel` keeps its number of threads. Throws Error if
+  /// distances and problems differ in the number of views.
   ProblemSolver(const DistanceMatrix& distances, const ClusteringProblems& problems, const ProblemScoring& scoring,
                 Parallel& parallel);
 
-  /// Adds the problems numbered [first, last) to the sums. The same bits for any number of threads.
+  /// Adds the scores of problems [first, last) to the sums. The result has the same bits for any number of threads.
   void solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums);
 
  private:
-  /// What one thread works with.
+  /// The memory of one thread.
   struct Worker {
     Clusterer clusterer;
     PairScores scores;

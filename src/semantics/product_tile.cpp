@@ -10,8 +10,8 @@ namespace svnet {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-// 4 rows by 3 vectors: 12 sums, 3 vectors of the right panel and a number of the left one fill 16 registers. At most 8
-// lanes, so that the right width divides the tile.
+// 4 rows by 3 vectors: 12 sums, 3 vectors of the right panel and one element of the left panel take 16 registers. At
+// most 8 lanes, so that the right width divides the tile.
 using Doubles = hn::CappedTag<double, 8>;
 constexpr Index kLeftWidth = 4;
 
@@ -19,7 +19,7 @@ PanelWidths panel_widths_here() { return {kLeftWidth, 3 * static_cast<Index>(hn:
 
 void add_products_here(const double* left, const double* right, Index depth, double* products) {
   const Doubles d;
-  const auto lanes = static_cast<Index>(hn::Lanes(d)), width = 3 * lanes;
+  const Index lanes = hn::Lanes(d), width = 3 * lanes;
   for (Index j = 0; j < kProductTile; j += width)
     for (Index i = 0; i < kProductTile; i += kLeftWidth) {
       const double* HWY_RESTRICT a = left + i * depth;

@@ -3,18 +3,18 @@
 
 namespace svnet {
 
-constexpr Index kProductTile = 192;   ///< rows and columns of a tile of products
-constexpr Index kProductDepth = 256;  ///< features multiplied at once
+constexpr Index kProductTile = 192;   ///< rows and columns of a tile
+constexpr Index kProductDepth = 256;  ///< largest depth of one call
 
-/// The widths of the panels that the instruction set at hand multiplies; both divide kProductTile.
+/// The widths of the panels for the instruction set in use; both divide kProductTile.
 struct PanelWidths {
   Index left, right;
 };
 PanelWidths panel_widths();
 
-/// products (tile, tile) += left · rightᵀ, where left and right hold kProductTile rows of `depth` numbers each, in
-/// panels of as many rows as panel_widths says: row r, number d of panel p at (p · depth + d) · width + r. 64-byte
-/// aligned. Each product is a sum in the order of d.
+/// products (kProductTile, kProductTile) += left · rightᵀ. left and right are (kProductTile, depth), packed in panels
+/// of `width` rows (panel_widths): element d of row r of panel p is at (p · depth + d) · width + r. Requires: 64-byte
+/// alignment. Each product is summed in the order of d.
 void add_products(const double* left, const double* right, Index depth, double* products);
 
 }  // namespace svnet

@@ -12,13 +12,11 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double mean(std::uint64_t sum, std::uint64_t count) {
-  return count == 0 ? kNaN : static_cast<double>(sum) * 0x1p-32 / static_cast<double>(count);
-}
+double mean(std::uint64_t sum, std::uint64_t count) { return count == 0 ? kNaN : sum * 0x1p-32 / count; }
 
 }  // namespace
 
-void ScoreSums::take(ScoreSums& other) {
+void ScoreSums::add_and_clear(ScoreSums& other) {
   check(views.size() == other.views.size(), "[scores] sums of ", other.views.size(),
         " views cannot be added to those of ", views.size());
   problems += other.problems;
@@ -32,9 +30,9 @@ void ScoreSums::take(ScoreSums& other) {
 
 double standard_error(const ScoreSums::View& sums) {
   if (sums.individual_count < 2) return kNaN;
-  const double n = static_cast<double>(sums.individual_count);
-  const double sum = static_cast<double>(sums.individual) * 0x1p-32;
-  const double squares = static_cast<double>(sums.individual_squared) * 0x1p-32;
+  const double n = sums.individual_count;
+  const double sum = sums.individual * 0x1p-32;
+  const double squares = sums.individual_squared * 0x1p-32;
   const double variance = std::max(0.0, squares - sum * sum / n) / (n - 1);
   return std::sqrt(variance / n);
 }
@@ -90,7 +88,7 @@ std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<co
   std::vector<Extent> extents;
   for (std::size_t v = 0; v < scores.size(); ++v) {
     check(pose_of_view[v] >= 0, "[scores] view ", v, " has pose ", pose_of_view[v], "; poses are numbered from 0");
-    if (extents.size() <= static_cast<std::size_t>(pose_of_view[v])) extents.resize(pose_of_view[v] + 1);
+    if (std::ssize(extents) <= pose_of_view[v]) extents.resize(pose_of_view[v] + 1);
     if (std::isnan(scores[v])) continue;
     auto& extent = extents[pose_of_view[v]];
     extent.lowest = std::min(extent.lowest, scores[v]);

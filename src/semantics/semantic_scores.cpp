@@ -9,10 +9,10 @@
 namespace svnet {
 namespace {
 
-constexpr std::uint64_t kBlock = 16384;         // problems between two looks at the stopping rules, at first
-constexpr std::uint64_t kBlocksPerLook = 128;   // from so many blocks on looks become rarer
-constexpr std::uint64_t kFirstStep = 512;       // problems, before it is known how long they take
-constexpr std::uint64_t kEnoughForError = 100;  // scores below which a standard error is not believed
+constexpr std::uint64_t kBlock = 16384;         // problems between two checks of the stopping rules, at first
+constexpr std::uint64_t kBlocksPerCheck = 128;  // from this number of blocks on, checks become rarer
+constexpr std::uint64_t kFirstStep = 512;       // problems in the first step, before their speed is known
+constexpr std::uint64_t kEnoughForError = 100;  // scores; a standard error of fewer is not used
 
 void check_rules(const ScoreOptions& options) {
   check(options.target_error >= 0, "[scores] target_error is ", options.target_error, "; it must not be negative");
@@ -45,34 +45,34 @@ bool exact_enough(const ClusteringProblems& problems, const ScoreOptions& option
   return true;
 }
 
-/// The first number of problems above `problems` at which the rules are looked at.
-std::uint64_t next_look(std::uint64_t problems) {
+/// The first number of problems above `problems` at which the stopping rules are checked.
+std::uint64_t next_check(std::uint64_t problems) {
   std::uint64_t between = kBlock;
-  while (problems >= between * kBlocksPerLook) between *= 2;
+  while (problems >= between * kBlocksPerCheck) between *= 2;
   return (problems / between + 1) * between;
 }
 
-bool is_look(std::uint64_t problems) { return problems > 0 && next_look(problems - 1) == problems; }
+bool is_check_due(std::uint64_t problems) { return problems > 0 && next_check(problems - 1) == problems; }
 
 bool finished(const ClusteringProblems& problems, const ScoreOptions& options, const ScoreSums& sums) {
   if (options.problems > 0 && sums.problems >= options.problems) return true;
-  if (!is_look(sums.problems)) return false;
+  if (!is_check_due(sums.problems)) return false;
   return (options.min_samples > 0 && enough_samples(problems, options, sums)) ||
          (options.target_error > 0 && exact_enough(problems, options, sums));
 }
 
-/// The number of problems to expect; 0 where only the error decides.
+/// The expected number of problems; 0 if only target_error stops.
 std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreOptions& options) {
   std::uint64_t expected = options.problems;
   if (options.min_samples > 0) {
     double rarest = 1;
     for (Index v = 0; v < problems.views(); ++v)
       if (const double share = problems.inclusion_probability(v); share > 0) rarest = std::min(rarest, share);
-    // The unluckiest of thousands of views is about four standard deviations behind its mean.
-    const double samples = static_cast<double>(options.min_samples), behind = 4 * std::sqrt(samples) + 8;
-    const auto needed = static_cast<std::uint64_t>(std::ceil((samples + behind) / rarest));
-    const std::uint64_t at_look = needed == 0 ? 0 : next_look(needed - 1);
-    expected = expected == 0 ? at_look : std::min(expected, at_look);
+    // The unluckiest of thousands of views is about four standard deviations below its mean.
+    const double samples = options.min_samples, shortfall = 4 * std::sqrt(samples) + 8;
+    const auto needed = static_cast<std::uint64_t>(std::ceil((samples + shortfall) / rarest));
+    const std::uint64_t at_check = needed == 0 ? 0 : next_check(needed - 1);
+    expected = expected == 0 ? at_check : std::min(expected, at_check);
   }
   return expected;
 }
@@ -80,21 +80,21 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 }  // namespace
 
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                     Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& watch) {
+                     Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& callbacks) {
   check_rules(options);
-  check(static_cast<Index>(sums.views.size()) == problems.views(), "[scores] the sums so far are of ",
-        sums.views.size(), " views, the problems of ", problems.views());
+  check(std::ssize(sums.views) == problems.views(), "[scores] the sums so far are of ", sums.views.size(),
+        " views, the problems of ", problems.views());
   ProblemSolver solver(distances, problems, options.scoring(), parallel);
   static const Messages kSilent;
   const std::uint64_t start = sums.problems, expected = expected_problems(problems, options);
-  Progress progress(watch.messages == nullptr ? kSilent : *watch.messages, "semantic scores",
-                    static_cast<Index>(expected > start ? expected - start : 0));
+  Progress progress(callbacks.messages == nullptr ? kSilent : *callbacks.messages, "semantic scores",
+                    expected > start ? expected - start : 0);
   ScoreSums step(problems.views());
   while (!finished(problems, options, sums)) {
     const std::uint64_t done = sums.problems - start;
     const std::uint64_t in_a_quarter =
-        done == 0 ? kFirstStep : static_cast<std::uint64_t>(static_cast<double>(done) / progress.seconds() / 4);
-    std::uint64_t last = std::min(next_look(sums.problems), sums.problems + std::max<std::uint64_t>(in_a_quarter, 1));
+        done == 0 ? kFirstStep : static_cast<std::uint64_t>(done / progress.seconds() / 4);
+    std::uint64_t last = std::min(next_check(sums.problems), sums.problems + std::max<std::uint64_t>(in_a_quarter, 1));
     if (options.problems > 0) last = std::min(last, options.problems);
     check(last <= ScoreSums::kMostProblems, "[scores] ", sums.problems,
           " problems are solved and the rules ask for more; ", "the sums hold ", ScoreSums::kMostProblems,
@@ -104,12 +104,12 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
     solver.solve(share.first, share.last, step);
     communicator.all_reduce(step.numbers());
     step.problems = last - sums.problems;
-    sums.take(step);
-    // What is expected may be too little: the task must not look finished before it is.
+    sums.add_and_clear(step);
+    // The expected number may be too low, but progress must not show the end before it is reached.
     std::uint64_t shown = sums.problems - start;
     if (expected > start && !finished(problems, options, sums)) shown = std::min(shown, expected - start - 1);
-    progress.update(static_cast<Index>(shown));
-    if (watch.after_step) watch.after_step(sums);
+    progress.update(shown);
+    if (callbacks.after_step) callbacks.after_step(sums);
   }
 }
 

@@ -11,10 +11,10 @@
 namespace svnet {
 
 struct ScoreOptions {
-  // When to stop: at the first of those that are not 0. At least one is needed.
-  std::uint64_t problems = 0;     ///< after this many problems, exactly
-  std::uint64_t min_samples = 0;  ///< when every view that can be drawn was in this many problems
-  double target_error = 0;        ///< when every standard error is at most this, from at least 100 scores
+  // Stopping rules. 0: off. At least one is needed; the first that holds stops.
+  std::uint64_t problems = 0;     ///< stop after exactly N problems
+  std::uint64_t min_samples = 0;  ///< stop once every view that can be drawn has been in at least N problems
+  double target_error = 0;        ///< stop once every standard error is at most this, each from at least 100 scores
 
   std::uint64_t seed = 0;
   Singletons singletons = Singletons::zero;
@@ -23,23 +23,25 @@ struct ScoreOptions {
   ProblemScoring scoring() const { return {seed, singletons, clustering}; }
 };
 
-/// What goes on while scores are computed.
+/// Callbacks while scores are computed.
 struct ScoreProgress {
   const Messages* messages = nullptr;
-  /// Called about four times a second and at the end, in every process of the communicator: to save a snapshot.
+  /// Called about four times a second and at the end, in every process of the communicator. Saves snapshots.
   std::function<void(const ScoreSums&)> after_step;
 };
 
-/// Continues `sums`, which hold the problems numbered from 0 to sums.problems - 1, until the options say stop. Whether
-/// min_samples or target_error is reached is asked at multiples of 16384 problems, from 2^21 problems on only at
-/// multiples of 2^15, from 2^22 on of 2^16, and so on: the result depends neither on the number of threads or processes
-/// nor on interruptions. Every process of the communicator holds the same sums, before and after. Throws Error for
-/// options that cannot be followed.
+/// Adds problems to `sums`, from problem sums.problems on, until a stopping rule holds. Requires: `sums` hold problems
+/// 0 to sums.problems - 1, and are the same in every process of the communicator, as they are afterwards.
+///
+/// min_samples and target_error are checked at multiples of 2^14 problems; from 2^21 problems on at multiples of 2^15,
+/// from 2^22 on of 2^16, and so on. So the result depends neither on the number of threads or processes nor on
+/// interruptions. Throws Error for options that cannot be fulfilled.
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
-                     Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& watch = {});
+                     Parallel& parallel, Communicator& communicator, ScoreSums& sums,
+                     const ScoreProgress& callbacks = {});
 
-/// Semantic scores of every view by Monte-Carlo (PAPER.md section 4): for each, the mean of its Fowlkes-Mallows scores,
-/// individual and global, over the random problems that contain it. Views of excluded categories get count 0 and NaN.
+/// Semantic scores by Monte-Carlo (PAPER.md section 4): for each view, the means of its individual and global scores
+/// over the random problems that contain it. Views of excluded categories have count 0 and scores NaN.
 SemanticScores semantic_scores(const DistanceMatrix& distances, const ClusteringProblems& problems,
                                const ScoreOptions& options, Parallel& parallel, const Messages& messages = {});
 

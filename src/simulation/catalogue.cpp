@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "base/text.h"
-#include "catalogue/designs.h"
+#include "simulation/catalogue/designs.h"
 
 namespace svnet {
 namespace {

@@ -7,14 +7,14 @@
 
 namespace svnet {
 
-/// The categories of household objects and tools that can be made, in alphabetical order. The first five objects of
-/// each are designs; further ones are mixtures of two of them.
+/// The names of the categories of household objects and tools, in alphabetical order. The first kDesigns objects of a
+/// category are designs; each further one mixes two of them at random.
 const std::vector<std::string>& catalogue_names();
 
 constexpr Index kDesigns = 5;
 
-/// Object number `object` (from 0) of a category, in metres, with normals; the same for every seed where object <
-/// kDesigns. Throws Error for an unknown category, with the nearest one.
+/// Object `object` (from 0) of a category, in metres, with normals. The seed matters only if object >= kDesigns. Throws
+/// Error for an unknown category and suggests the nearest name.
 Mesh catalogue_object(const std::string& category, Index object, std::uint64_t seed);
 
 }  // namespace svnet

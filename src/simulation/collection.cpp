@@ -11,7 +11,7 @@
 namespace svnet {
 namespace {
 
-// Pictures of one pose: 2^16 per object and pose. The views come first.
+// Indices of the pictures of one pose, 0 … 2^16 - 1; views have their own index. kPlan keys the numbers of pose_object.
 constexpr std::uint32_t kOverview = 0xfffd, kBackground = 0xfffe, kPlan = 0xffff;
 
 PictureKey key_of(std::uint64_t seed, std::uint32_t number, std::uint32_t picture) {
@@ -39,7 +39,7 @@ PosedObject pose_object(const Mesh& mesh, std::span<const RestingPose> resting, 
   posed.object_to_world.translation() =
       Eigen::Vector3d(x, y, 0) - Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
 
-  // A robot misses none of the views, or one or two, rarely up to five; never the top view.
+  // A robot cannot reach some views: mostly 0 to 2, rarely up to 5; the top view is never missing.
   posed.views = paper_grid();
   const double u = random.uniform();
   for (auto missing = static_cast<int>(6 * u * u * u); missing > 0; --missing)
@@ -50,7 +50,7 @@ PosedObject pose_object(const Mesh& mesh, std::span<const RestingPose> resting, 
 Intrinsics overview_camera() { return {640, 480, 600, 600, 319.5, 239.5}; }
 
 Eigen::Isometry3d overview_camera_to_world() {
-  return camera_pose({90, 90}, 1, Eigen::Vector3d::Zero(), CameraFrame::optical);
+  return look_at({90, 90}, 1, Eigen::Vector3d::Zero(), CameraFrame::optical);
 }
 
 Intrinsics view_camera(Index size) {
@@ -58,33 +58,33 @@ Intrinsics view_camera(Index size) {
   return {size, size, 1.25 * side, 1.25 * side, (side - 1) / 2, (side - 1) / 2};
 }
 
-Overview take_overview(const PosedObject& posed, std::uint64_t seed, std::uint32_t number) {
-  return take_overview(posed, Scene(posed.mesh, posed.object_to_world, posed.setting), seed, number);
+Overview capture_overview(const PosedObject& posed, std::uint64_t seed, std::uint32_t number) {
+  return capture_overview(posed, Scene(posed.mesh, posed.object_to_world, posed.setting), seed, number);
 }
 
-Overview take_overview(const PosedObject& posed, const Scene& scene, std::uint64_t seed, std::uint32_t number) {
+Overview capture_overview(const PosedObject& posed, const Scene& scene, std::uint64_t seed, std::uint32_t number) {
   constexpr int kSamples = 2;
   RandomStream random(seed, Stream::collection,
                       std::uint64_t{key_of(seed, number, kOverview).number} << 32 | 0xffffffff);
   const auto brighter = static_cast<float>(0.97 + 0.06 * random.uniform());
-  const auto take = [&](const Scene& seen, std::uint32_t picture, float exposure) {
-    const PictureKey key = key_of(seed, number, picture);
-    return sensed(seen.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
+  const auto picture = [&](const Scene& seen, std::uint32_t index, float exposure) {
+    const PictureKey key = key_of(seed, number, index);
+    return sensor_picture(seen.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
   };
   const Scene empty(nullptr, posed.object_to_world, posed.setting);
-  return {take(empty, kBackground, 1), take(scene, kOverview, brighter)};
+  return {picture(empty, kBackground, 1), picture(scene, kOverview, brighter)};
 }
 
-TakenView take_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,
-                    std::uint64_t seed, std::uint32_t number, std::size_t view) {
+CapturedView capture_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,
+                          std::uint64_t seed, std::uint32_t number, std::size_t view) {
   constexpr int kSamples = 4;
   const Intrinsics camera = view_camera(size);
-  const Eigen::Isometry3d from = camera_pose(posed.views[view], viewing_radius_m(camera, object.diagonal_m),
-                                             object.centre_m, CameraFrame::optical);
+  const Eigen::Isometry3d from =
+      look_at(posed.views[view], viewing_radius_m(camera, object.diagonal_m), object.centre_m, CameraFrame::optical);
   const PictureKey key = key_of(seed, number, static_cast<std::uint32_t>(view));
-  TakenView taken{scene.shoot(camera, from, key, kSamples), {}};
-  taken.picture = sensed(taken.shot, key);
-  return taken;
+  CapturedView captured{scene.shoot(camera, from, key, kSamples), {}};
+  captured.picture = sensor_picture(captured.shot, key);
+  return captured;
 }
 
 }  // namespace svnet

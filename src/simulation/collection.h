@@ -9,46 +9,47 @@
 #include "simulation/scene.h"
 #include "simulation/sensor.h"
 
-// One pose of one object, as a robot would collect it: an overview from above, localisation, the views of the paper.
+// The steps of collecting one pose of one object as a robot does: place it, take an overview, take the paper's views.
+// `number` < 2^16 identifies the object and pose in a dataset; with the seed it determines all random numbers.
 namespace svnet {
 
-/// Where the object lies, what it lies on and under which light, which views are missing.
+/// An object on a table under some light, and the camera poses that the robot reaches.
 struct PosedObject {
   const Mesh* mesh;
   Eigen::Isometry3d object_to_world;
   Setting setting;
-  std::vector<Pose> views;
+  std::vector<CameraPose> views;
 };
 
-/// Pose number `pose` of an object: each of its resting poses in turn, turned and moved at random. `number` < 2^16
-/// tells the object and pose apart from all others of a collection.
+/// Pose `pose` of an object. Successive poses use its resting poses in turn; the object is rotated about the vertical
+/// and moved at random. The mesh must outlive the result. Throws Error if number >= 2^16.
 PosedObject pose_object(const Mesh&, Index pose, std::uint64_t seed, std::uint32_t number);
-/// With its resting poses, which cost seconds where a mesh is large.
+/// With the mesh's resting poses, which take a second for a large mesh.
 PosedObject pose_object(const Mesh&, std::span<const RestingPose>, Index pose, std::uint64_t seed,
                         std::uint32_t number);
 
 /// The camera of the overview: 640x480, 1 m above the table, looking down.
 Intrinsics overview_camera();
 Eigen::Isometry3d overview_camera_to_world();
-/// What it may find at all: it sees about 1 m of the table, and less than a pixel of what is smaller.
+/// The sizes of objects that it can find: it sees about 1 m of the table, and 1 mm is less than a pixel.
 constexpr double kSmallestObject_m = 0.001, kLargestObject_m = 1;
-/// The camera of the views: size x size with the same angle of view as the paper's.
+/// The camera of the views: size x size pixels, the angle of view of the paper's camera.
 Intrinsics view_camera(Index size);
 
-/// The empty table and the object from the overview camera, with sensor noise and a small change of light in between.
+/// Pictures of the empty table and of the object from the overview camera. The light changes a little between them.
 struct Overview {
   RgbdPicture background, current;
 };
-Overview take_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
+Overview capture_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
 /// With the scene of the posed object.
-Overview take_overview(const PosedObject&, const Scene&, std::uint64_t seed, std::uint32_t number);
+Overview capture_overview(const PosedObject&, const Scene&, std::uint64_t seed, std::uint32_t number);
 
-/// Number `view` of object.views, from where the localised object asks for.
-struct TakenView {
+/// View `view` of posed.views: the camera looks at the localised object's centre from its viewing radius.
+struct CapturedView {
   Shot shot;
   RgbdPicture picture;
 };
-TakenView take_view(const PosedObject&, const Scene&, const LocalisedObject&, Index size, std::uint64_t seed,
-                    std::uint32_t number, std::size_t view);
+CapturedView capture_view(const PosedObject&, const Scene&, const LocalisedObject&, Index size, std::uint64_t seed,
+                          std::uint32_t number, std::size_t view);
 
 }  // namespace svnet

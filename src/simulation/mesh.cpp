@@ -8,7 +8,7 @@
 namespace svnet {
 namespace {
 
-/// For each point the number of its place; points at the same place, to a micrometre, share one.
+/// An index per point; points that agree to a micrometre have the same index.
 std::vector<std::uint32_t> places(const std::vector<Vec3>& points) {
   using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t, std::uint32_t>;
   std::vector<Key> keys;
@@ -72,8 +72,8 @@ Eigen::Vector3d centre_of_mass(const Mesh& mesh) {
     by_area += a / 3 * (p[0] + p[1] + p[2]);
     size = std::max({size, p[0].norm(), p[1].norm(), p[2].norm()});
   }
-  // A sheet has area without volume; an open mesh may even have a centre outside its own reach. Volume is negative
-  // where triangles face inwards.
+  // Without volume (a sheet), or if the centre would lie outside an open mesh, the surface decides. The volume is
+  // negative if the triangles face inwards.
   if (std::abs(volume) > 1e-4 * area * size) {
     const Vector3d centre = by_volume / volume;
     if (centre.norm() <= size) return origin + centre;

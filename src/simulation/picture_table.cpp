@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "image/opencv_image.h"
+
 namespace svnet {
 
 Image resized_to_fit(const Image& picture, Index side_px) {
-  const cv::Mat3b source(static_cast<int>(picture.height), static_cast<int>(picture.width),
-                         reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(picture.rgb.data())));
+  const cv::Mat3b source = matrix_of(picture);
   const double fit = static_cast<double>(side_px) / std::max(source.rows, source.cols);
   Image result{std::max(1, static_cast<int>(source.rows * fit)), std::max(1, static_cast<int>(source.cols * fit)), {}};
   result.rgb.resize(static_cast<std::size_t>(3 * result.height * result.width));
-  cv::Mat3b place(static_cast<int>(result.height), static_cast<int>(result.width),
-                  reinterpret_cast<cv::Vec3b*>(result.rgb.data()));
-  cv::resize(source, place, place.size(), 0, 0, fit < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
+  cv::Mat3b target = matrix_of(result);
+  cv::resize(source, target, target.size(), 0, 0, fit < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
   return result;
 }
 
@@ -30,15 +30,13 @@ Image picture_table(const std::vector<PictureRow>& rows, Index cell_px) {
   Image sheet{
       static_cast<Index>(rows.size()) * pitch + kGap, label_width + static_cast<Index>(columns) * pitch + kGap, {}};
   sheet.rgb.assign(static_cast<std::size_t>(3 * sheet.height * sheet.width), 255);
-  cv::Mat3b canvas(static_cast<int>(sheet.height), static_cast<int>(sheet.width),
-                   reinterpret_cast<cv::Vec3b*>(sheet.rgb.data()));
+  cv::Mat3b canvas = matrix_of(sheet);
   for (std::size_t r = 0; r < rows.size(); ++r) {
     const int top = kGap + static_cast<int>(r) * pitch;
     cv::putText(canvas, rows[r].label, {8, top + cell / 2 + 5}, kFont, kFontScale, {0, 0, 0}, 1, cv::LINE_AA);
     for (std::size_t c = 0; c < rows[r].pictures.size(); ++c) {
-      Image picture = resized_to_fit(rows[r].pictures[c], cell_px);
-      const cv::Mat3b fitted(static_cast<int>(picture.height), static_cast<int>(picture.width),
-                             reinterpret_cast<cv::Vec3b*>(picture.rgb.data()));
+      const Image picture = resized_to_fit(rows[r].pictures[c], cell_px);
+      const cv::Mat3b fitted = matrix_of(picture);
       fitted.copyTo(canvas(cv::Rect(label_width + static_cast<int>(c) * pitch + (cell - fitted.cols) / 2,
                                     top + (cell - fitted.rows) / 2, fitted.cols, fitted.rows)));
     }

@@ -114,8 +114,8 @@ std::vector<Vector3d> outermost(const std::vector<Vector3d>& points, int count) 
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> given) {
-  // One point of each place, and a tremor of 10⁻⁵ of the extent, so that no four are in a plane: well above the
-  // rounding of the planes' equations.
+  // Equal points are merged. Each is moved at random by up to 10⁻⁵ of the extent, well above rounding errors, so that
+  // no four points lie in one plane.
   const double size = extent(given);
   check(given.size() >= 4 && size > 0, "[resting] ", given.size(), " points without extent have no convex hull");
   std::map<std::array<std::int64_t, 3>, std::uint32_t> places;
@@ -127,7 +127,8 @@ std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> 
   for (const auto& [place, first] : places) number.push_back(first);
   RandomStream random(1, Stream::collection);
   const auto kept = static_cast<Index>(number.size());
-  draw_without_replacement(random, number.data(), kept, kept);  // in any order: sorted points make the most faces
+  draw_without_replacement(random, number.data(), kept,
+                           kept);  // shuffled: sorted points make the most faces on the way
   std::vector<Vector3d> p;
   for (const std::uint32_t i : number) {
     const double z = random.uniform() - 0.5, y = random.uniform() - 0.5, x = random.uniform() - 0.5;
@@ -197,8 +198,8 @@ std::vector<RestingPose> resting_poses(const Mesh& mesh) {
                    [](const Candidate& a, const Candidate& b) { return a.area > b.area; });
 
   const double least_tilt = 2.5 * std::numbers::pi / 180;
-  std::vector<Vector3d> done;                         // within 3° of a face that carries the solid is the same face
-  std::vector<std::pair<RestingPose, double>> found;  // and the tilt that it stands, in radians
+  std::vector<Vector3d> done;                         // normals of stable faces; those within 3° are the same face
+  std::vector<std::pair<RestingPose, double>> found;  // with the tilt that it withstands, in radians
   for (const Candidate& candidate : candidates) {
     const Vector3d down = candidate.normal;
     if (std::any_of(done.begin(), done.end(), [&](const Vector3d& other) { return other.dot(down) > 0.9986; }))

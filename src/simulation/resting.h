@@ -8,23 +8,26 @@
 
 namespace svnet {
 
-/// Triangles of the convex hull, counter-clockwise from outside, as numbers of points (incremental, with the horizon of
-/// what each point sees). Points that are coplanar to about 10⁻⁵ of the extent may lie a trifle outside. Throws Error
-/// where all points are in one plane.
+/// The triangles of the convex hull as indices of points, counter-clockwise from outside (incremental algorithm).
+/// Points are moved by up to 10⁻⁵ of the extent, so a point may lie outside the hull by that much. Throws Error if all
+/// points are in one plane.
 std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Eigen::Vector3d> points);
 
-/// A way in which a solid lies still on a table.
+/// A stable way in which a solid rests on a table.
 struct RestingPose {
-  Eigen::Quaterniond rotation;  // object to world, up to a turn about the vertical
+  Eigen::Quaterniond rotation;  // object to world, up to a rotation about the vertical
   double centre_height_m;       // of the centre of mass above the table
-  double share;                 // of all directions in which gravity pulls it onto this face, from the centre of mass
+  double share;                 // solid angle of the face as seen from the centre of mass, of 4π
 };
 
-/// The faces of the convex hull that carry the centre of mass by at least 2.5° of tilt. Faces on which the centre of
-/// mass is equally high are the same kind of pose (an upright can, head or foot; the sides of a bottle): first comes
-/// the best face of each kind, kinds with the largest share first, then the second best, and so on. Kinds with less
-/// than 8 % of all directions are left out, unless nothing else is there. At least one. Of a mesh of more than 32768
-/// points only those count that lie outermost in one of 4096 directions, which are within 0.05 % of its extent.
+/// The faces of the convex hull on which the solid stays when tilted by 2.5°; if there are none, the most stable face.
+///
+/// Faces on which the centre of mass is equally high form a kind (a can on either end; the sides of a bottle). The
+/// result lists the best face of each kind, kinds by falling share, then the second best of each, and so on. Kinds with
+/// a share below 8 % are left out, except for the first.
+///
+/// Of a mesh of more than 32768 points only those count that are outermost in one of 4096 directions: within 0.05 % of
+/// the extent.
 std::vector<RestingPose> resting_poses(const Mesh&);
 
 }  // namespace svnet

@@ -10,14 +10,13 @@
 
 namespace svnet {
 
-/// The random numbers of one picture: every pixel draws from stream `number` << 32 | pixel of `seed`, whatever the
-/// thread.
+/// The key of a picture's random numbers: pixel p uses the index `number` << 32 | p of the seed, on any thread.
 struct PictureKey {
   std::uint64_t seed = 0;
   std::uint32_t number = 0;
 };
 
-/// What a perfect camera sees, before its sensor's noise.
+/// What an ideal camera sees, without the noise of a sensor.
 struct Shot {
   Index height = 0, width = 0;
   std::vector<Vec3> radiance;  // linear RGB, 1 is white
@@ -25,8 +24,8 @@ struct Shot {
   std::vector<std::uint8_t> mask;  // 255 where the pixel's centre sees the object, else 0
 };
 
-/// An object on a table, traced with Embree. The same bits on one machine for any number of threads; a scene may be
-/// looked at from several threads at once. `mesh` must live as long; without one the table is empty.
+/// An object on a table, ray-traced with Embree. Without a mesh the table is empty; a mesh must outlive the scene.
+/// Thread-safe, and the number of threads does not change a bit of the result.
 class Scene {
  public:
   Scene(const Mesh* mesh, const Eigen::Isometry3d& object_to_world, const Setting&);
@@ -34,8 +33,8 @@ class Scene {
   Scene(const Scene&) = delete;
   Scene& operator=(const Scene&) = delete;
 
-  /// `camera_to_world` in the optical frame; the camera must be above the table. `samples` rays per pixel, the first
-  /// one through its centre.
+  /// `camera_to_world` is the pose of the optical frame. Requires a camera above the table. Traces `samples` rays per
+  /// pixel, the first one through its centre.
   Shot shoot(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const PictureKey&, int samples) const;
 
  private:

@@ -10,10 +10,10 @@ namespace svnet {
 using Outline = std::vector<Vec2>;
 using Path = std::vector<Vec3>;
 
-/// The shape that a Sculptor just added, to be moved where it belongs. Each change applies to the points as they are.
+/// A shape that a Sculptor has added. Its functions transform it in place, one after the other.
 class Part {
  public:
-  /// The points from `first`, the triangles from `first_triangle`, to the last ones of the mesh.
+  /// The points of the mesh from `first` on and its triangles from `first_triangle` on.
   Part(Mesh& mesh, std::size_t first, std::size_t first_triangle)
       : mesh_(&mesh),
         first_(first),
@@ -39,26 +39,27 @@ class Part {
 /// millimetres until take(). Shapes are made around the origin and take the material in use.
 class Sculptor {
  public:
-  /// From now on shapes are made of this.
+  /// Sets the material of the shapes that follow.
   void use(const Material&);
 
-  /// Closed rings of as many points each, joined in order; the first and the last are closed with a flat cap, or joined
-  /// with one another where `loop`. Rings run counter-clockwise when seen from the last one.
+  /// Joins closed rings in order. Every ring has the same number of points, counter-clockwise as seen from the last
+  /// ring. The first and the last ring get a flat cap or, with `loop`, are joined with each other.
   Part loft(const std::vector<Path>& rings, bool loop = false);
-  /// (radius, z) from one end to the other, turned about z; with an end's radius above 0 that end is capped.
+  /// Revolves a profile of points (radius, z) about the z axis. An end with a radius above 0 gets a cap.
   Part lathe(const Outline& profile, int segments = 40);
-  /// The same for a profile that closes on itself without touching the axis: a band, a rim.
+  /// Revolves a closed profile that does not touch the axis: a band, a rim.
   Part hoop(const Outline& profile, int segments = 56);
-  /// A round bar along a path; `radii` one for all points, or one each. `flat` squeezes it along its own second axis.
+  /// A round bar along a path. `radii` has one radius for all points or one for each. `flat` scales the cross-section
+  /// along its second axis.
   Part tube(const Path& path, const std::vector<float>& radii, bool loop = false, float flat = 1, int segments = 14);
-  /// A plate with this outline (counter-clockwise) in xy, centred on z = 0, its edges broken by `bevel`; holes are
-  /// given counter-clockwise too.
+  /// A plate with an outline in the xy plane, centred on z = 0, with bevelled edges. The outline and the holes are
+  /// counter-clockwise.
   Part plate(Outline outline, float thickness, float bevel = 0, std::vector<Outline> holes = {});
-  /// A body along x whose cross-section at `x` is 2 half_width(u) wide along y and thickness(u) high, u in [0, 1] from
-  /// the first to the last: top surface at lift(u, v) above z = 0 for v in [-1, 1] across. Blades, bowls of spoons,
-  /// handles.
+  /// A body along x that interpolates cross-sections smoothly: blades, bowls of spoons, handles. A cross-section is a
+  /// superellipse with the exponent `roundness`, 2 half_width wide along y and `thickness` high, its middle at z =
+  /// lift.
   struct Section {
-    float x, half_width, thickness, lift = 0, dish = 0;  // dish: how much lower the middle lies than the edges
+    float x, half_width, thickness, lift = 0, dish = 0;  // dish: how far the middle sinks below the edges
   };
   Part strip(const std::vector<Section>& sections, int subdivisions = 5, float roundness = 2);
   Part box(float x, float y, float z, float bevel = 1);
@@ -76,7 +77,7 @@ class Sculptor {
   Mesh mesh_;
 };
 
-/// A smooth curve through points (Catmull-Rom), `steps` pieces between neighbours.
+/// A smooth curve through points (Catmull-Rom), with `steps` segments between neighbours.
 Outline smooth(const Outline& points, int steps = 6, bool loop = false);
 Path smooth(const Path& points, int steps = 6, bool loop = false);
 
@@ -85,8 +86,8 @@ Outline circle(float radius, int segments = 32);
 Outline rounded_rectangle(float x, float y, float radius);
 Outline moved(Outline outline, float x, float y);
 
-/// Triangles over an outline with holes, all counter-clockwise, by ear clipping; numbers of points in the outline
-/// followed by those of the holes in order.
+/// Triangulates an outline with holes, all counter-clockwise, by ear clipping. The result are indices into the points
+/// of the outline followed by those of the holes.
 std::vector<std::array<std::uint32_t, 3>> triangulated(const Outline& outline, const std::vector<Outline>& holes);
 
 }  // namespace svnet

@@ -10,7 +10,7 @@
 namespace svnet {
 namespace {
 
-/// Rows, then columns, with the weights of a Gaussian of σ = 0.5 pixels; the border repeats.
+/// Blurs with a Gaussian of σ = 0.5 pixels, rows first. Border pixels are repeated.
 std::vector<Vec3> blurred(const std::vector<Vec3>& from, Index height, Index width) {
   constexpr float kSide = 0.1065f, kMiddle = 1 - 2 * kSide;
   std::vector<Vec3> rows(from.size()), result(from.size());
@@ -26,7 +26,7 @@ std::vector<Vec3> blurred(const std::vector<Vec3>& from, Index height, Index wid
   return result;
 }
 
-/// Four standard normals (Box and Muller 1958, both of each pair).
+/// Four standard normal numbers (Box and Muller 1958).
 std::array<float, 4> normals(const std::array<std::uint32_t, 4>& words) {
   std::array<float, 4> result{};
   for (std::size_t pair = 0; pair < 4; pair += 2) {
@@ -52,7 +52,7 @@ bool on_silhouette(const DepthImage& depth, Index y, Index x) {
 
 }  // namespace
 
-RgbdPicture sensed(const Shot& shot, const PictureKey& key, float exposure) {
+RgbdPicture sensor_picture(const Shot& shot, const PictureKey& key, float exposure) {
   constexpr float kDepthNoise = 0.0014f, kHoleShare = 0.6f;
   constexpr float kShotNoise = 0.0003f, kReadNoise = 0.0016f;  // variance per light, and σ in the dark
   RgbdPicture picture{{shot.height, shot.width, std::vector<std::uint8_t>(shot.radiance.size() * 3)},

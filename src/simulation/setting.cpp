@@ -15,7 +15,7 @@ Setting random_setting(RandomStream& random) {
     Texture texture;
     float scale_m, gloss;
   };
-  // Quiet ones, as in a laboratory: a loud table says more to a network than what lies on it.
+  // Tables without strong patterns, as in a laboratory: a pattern would dominate the features of an object.
   static const std::array<Table, 4> kTables{{
       {{0.62f, 0.61f, 0.58f}, {0.57f, 0.56f, 0.53f}, Texture::speckled, 0.004f, 0.02f},  // laminate
       {{0.66f, 0.56f, 0.43f}, {0.62f, 0.52f, 0.39f}, Texture::wood, 0.018f, 0.03f},      // birch
@@ -32,7 +32,7 @@ Setting random_setting(RandomStream& random) {
   setting.table.gloss = chosen.gloss;
   setting.table.sharpness = 30;
 
-  // A main lamp, sometimes a second one, and the room. Together they light the table alike under all conditions.
+  // A main lamp, sometimes a second one, and the room. The sum of their light on the table is always about the same.
   const float warmth = between(-0.12, 0.12), share = between(0.45, 0.75);
   const Vec3 tint(1 + warmth, 1, 1 - warmth);
   const std::uint32_t count = 1 + random.below(2);

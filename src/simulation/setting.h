@@ -10,10 +10,10 @@ namespace svnet {
 struct Lamp {
   Vec3 place_m;
   float radius_m;
-  Vec3 irradiance;  // on a surface at the origin that faces it
+  Vec3 irradiance;  // on a surface at the origin that faces the lamp
 };
 
-/// Table and light. Everything stands on the table z = 0.
+/// The table, which is the plane z = 0, and the light.
 struct Setting {
   Material table;
   std::vector<Lamp> lamps;
@@ -21,7 +21,7 @@ struct Setting {
   Vec3 wall{0.25f, 0.25f, 0.25f};  // radiance from the horizon
 };
 
-/// One of the tables and light conditions of the collection.
+/// A table and light drawn at random.
 Setting random_setting(RandomStream&);
 
 }  // namespace svnet

@@ -8,9 +8,7 @@
 namespace svnet {
 namespace {
 
-using Metrics = std::array<double, 3>;
-
-/// What one thread works with.
+/// The memory of one thread.
 struct Worker {
   ClusteringProblem problem;
   std::vector<Clusterer> clusterers;  // per pipeline
@@ -18,17 +16,18 @@ struct Worker {
   std::vector<std::int32_t> labels;
 };
 
-Metrics metrics_of(Worker& worker, std::size_t pipeline, const DistanceMatrix& distances, std::uint64_t number,
-                   const EvaluationOptions& options) {
+PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const DistanceMatrix& distances,
+                             std::uint64_t number, const EvaluationOptions& options) {
   const ClusteringProblem& problem = worker.problem;
   const auto labels = std::span(worker.labels).first(problem.rows.size());
   worker.clusterers[pipeline].cluster(distances, problem.rows, problem.categories, options.seed, number, labels);
   worker.contingency.count(problem.labels, labels);
-  return {worker.contingency.fowlkes_mallows(), worker.contingency.normalized_mutual_info(options.nmi),
-          worker.contingency.purity()};
+  PerMetric<double> values{};
+  for (std::size_t m = 0; m < kMetrics.size(); ++m) values[m] = kMetrics[m].value(worker.contingency, options.nmi);
+  return values;
 }
 
-/// Mean and standard error of values that come one by one (Welford 1962).
+/// Mean and standard error of a sequence of values (Welford 1962).
 struct RunningMean {
   double count = 0, mean = 0, squares = 0;
 
@@ -41,31 +40,6 @@ struct RunningMean {
 };
 
 }  // namespace
-
-Selector top_selector(const ViewDataset& dataset) {
-  Selector selector{"top", {}};
-  for (const auto& pose : dataset.poses) selector.view.push_back(static_cast<std::int32_t>(pose.top_view));
-  return selector;
-}
-
-Selector random_selector() { return {"rand", {}}; }
-
-Selector best_selector(std::string name, const ViewDataset& dataset, std::span<const double> scores) {
-  check(scores.size() == dataset.views.size(), "[evaluation] ", scores.size(), " scores for ", dataset.views.size(),
-        " views");
-  Selector selector = top_selector(dataset);
-  selector.name = std::move(name);
-  for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
-    const auto& pose = dataset.poses[p];
-    double best = -1;
-    for (Index view = pose.first_view; view < pose.first_view + pose.view_count; ++view)
-      if (scores[static_cast<std::size_t>(view)] > best) {  // false for NaN
-        best = scores[static_cast<std::size_t>(view)];
-        selector.view[p] = static_cast<std::int32_t>(view);
-      }
-  }
-  return selector;
-}
 
 EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& problems,
                          const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
@@ -84,8 +58,8 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
 
   const std::size_t stride = pipelines.size() * selectors.size();
   constexpr Index kBlock = 256;
-  std::vector<Metrics> values(kBlock * stride);  // of one block of problems
-  std::vector<std::array<RunningMean, 3>> means(stride);
+  std::vector<PerMetric<double>> values(kBlock * stride);  // of one block of problems
+  std::vector<PerMetric<RunningMean>> means(stride);
   Progress progress(messages, task, static_cast<Index>(options.problems));
   for (Index block = 0; block < static_cast<Index>(options.problems); block += kBlock) {
     const Index size = std::min(kBlock, static_cast<Index>(options.problems) - block);
@@ -111,7 +85,7 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
       }
     });
     for (std::size_t i = 0; i < static_cast<std::size_t>(size) * stride; ++i)
-      for (std::size_t m = 0; m < kMetricNames.size(); ++m) means[i % stride][m].add(values[i][m]);
+      for (std::size_t m = 0; m < kMetrics.size(); ++m) means[i % stride][m].add(values[i][m]);
     progress.update(block + size);
   }
 
@@ -122,7 +96,7 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
     table.pipelines.push_back(pipelines[p].name);
     auto& row = table.cells.emplace_back(selectors.size());
     for (std::size_t s = 0; s < selectors.size(); ++s)
-      for (std::size_t m = 0; m < kMetricNames.size(); ++m) row[s][m] = means[p * selectors.size() + s][m].result();
+      for (std::size_t m = 0; m < kMetrics.size(); ++m) row[s][m] = means[p * selectors.size() + s][m].result();
   }
   return table;
 }

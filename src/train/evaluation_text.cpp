@@ -24,8 +24,10 @@ std::string table_text(const EvaluationTable& table, const std::string& title) {
   constexpr std::size_t kColumn = 22;
   std::size_t first = 10;
   for (const auto& name : table.pipelines) first = std::max(first, name.size() + 2);
+  std::string metrics;
+  for (const Metric& metric : kMetrics) metrics += (metrics.empty() ? "" : " / ") + std::string(metric.title);
   std::string text =
-      title + " (FM / NMI / purity, mean of " + std::to_string(table.problems) + " problems)\n" + padded("", first);
+      title + " (" + metrics + ", mean of " + std::to_string(table.problems) + " problems)\n" + padded("", first);
   for (const auto& selector : table.selectors) text += padded(selector, kColumn);
   double largest_error = 0;
   for (std::size_t p = 0; p < table.pipelines.size(); ++p) {
@@ -49,9 +51,9 @@ std::string tables_json(const EvaluationTables& tables) {
     json["problems"] = table.problems;
     for (std::size_t p = 0; p < table.pipelines.size(); ++p)
       for (std::size_t s = 0; s < table.selectors.size(); ++s)
-        for (std::size_t m = 0; m < kMetricNames.size(); ++m) {
+        for (std::size_t m = 0; m < kMetrics.size(); ++m) {
           const Mean& mean = table.cells[p][s][m];
-          json["tables"][split][table.pipelines[p]][table.selectors[s]][kMetricNames[m]] = {
+          json["tables"][split][table.pipelines[p]][table.selectors[s]][kMetrics[m].name] = {
               {"mean", mean.mean}, {"standard_error", mean.standard_error}};
         }
   }

@@ -9,7 +9,8 @@ namespace svnet {
 /// Tables by split, "training" and "held_out".
 using EvaluationTables = std::map<std::string, EvaluationTable>;
 
-/// One line per pipeline, one column "FM/NMI/purity" per selector, as in the paper; below, the largest standard error.
+/// One line per pipeline and one column per selector, each with all metrics, as in the paper; the last line says the
+/// largest standard error.
 std::string table_text(const EvaluationTable& table, const std::string& title);
 
 /// {"format": 1, "problems", "tables": {split: {pipeline: {selector: {metric: {"mean", "standard_error"}}}}}}.

@@ -1,9 +1,9 @@
 #include "train/feature_extraction.h"
 
 #include <algorithm>
-#include <cmath>
 #include <future>
 
+#include "base/finite.h"
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/text.h"
@@ -97,10 +97,10 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
     const Tensor batch = next.get();
     if (begin + kBatch < last) prepare_from(begin + kBatch);
     const Tensor values = backbone.features(batch);
-    for (Index i = 0; i < values.size(); ++i)
-      check(std::isfinite(values.data<float>()[i]), "[", backbone.kind().name, "] a feature of ",
-            dataset.views[static_cast<std::size_t>(begin + i / dimension)].path,
-            " is not finite: the weights do not fit this network");
+    if (const auto bad = first_not_finite(values.values<float>()))
+      fail("[", backbone.kind().name, "] a feature of ",
+           dataset.views[static_cast<std::size_t>(begin) + *bad / static_cast<std::size_t>(dimension)].path,
+           " is not finite: the weights do not fit this network");
     std::copy_n(values.data<float>(), values.size(), features.values.data() + begin * dimension);
     progress.update(begin + size - first);
   }

@@ -1,21 +1,19 @@
 #include "train/pretraining.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numeric>
 
 #include "base/text.h"
 #include "models/trained_graph.h"
-#include "nn/autograd.h"
-#include "nn/graph/run.h"
 #include "nn/ops/losses.h"
 #include "nn/optim/optimizer.h"
 #include "nn/optim/schedule.h"
 #include "nn/runtime/inference.h"
+#include "train/dataset_rows.h"
 #include "train/epoch_order.h"
 #include "train/finite.h"
 #include "train/labelled_pictures.h"
-#include "train/training_set.h"
+#include "train/training_step.h"
 
 namespace svnet {
 namespace {
@@ -106,19 +104,10 @@ struct Learnt {
 Learnt step(const Graph& described, Parameters& parameters, Optimizer& optimizer, const LabelledPictures::Batch& batch,
             double rate, std::uint64_t seed) {
   const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
-  const TrainingContext context{.seed = seed, .step = static_cast<std::uint64_t>(optimizer.steps)};
-  const Tensor logits = train(graph, parameters, {batch.pixels}, {graph.output()}, context)[0];
-  const Tensor loss = ops::softmax_cross_entropy(logits, batch.classes);
-  check(std::isfinite(loss.item()), "[pretraining] the loss is not finite at step ", optimizer.steps,
-        "; a smaller learning rate may help");
-  autograd::GradientMap gradients;
-  autograd::backward(loss, gradients);
-  const std::vector<Tensor> trained = trainable(described, parameters);
-  const auto is_sound = [&](const Tensor& parameter) { return has_finite_gradient(gradients, parameter); };
-  check(std::all_of(trained.begin(), trained.end(), is_sound), "[pretraining] a gradient is not finite at step ",
-        optimizer.steps, "; a smaller learning rate may help");
-  optimizer.step(gradients, rate);
-  return {loss.item() * static_cast<double>(batch.classes.size()), recognised(logits, batch.classes)};
+  const auto loss = [&](const Tensor& logits) { return ops::softmax_cross_entropy(logits, batch.classes); };
+  const StepResult result = training_step(graph, parameters, optimizer, {batch.pixels}, loss,
+                                          {.task = "pretraining", .learning_rate = rate, .seed = seed});
+  return {result.loss * static_cast<double>(batch.classes.size()), recognised(result.output, batch.classes)};
 }
 
 }  // namespace

@@ -2,10 +2,15 @@
 
 namespace svnet {
 
-NodeId trained_from(Config::Training::FineTune fine_tune, const BackboneKind& kind, const Graph& graph, NodeId output) {
-  using FineTune = Config::Training::FineTune;
-  if (fine_tune == FineTune::none) return output;
-  if (fine_tune == FineTune::all) return graph.inputs().at(0);
+NodeId trained_from(FineTune fine_tune, const BackboneKind& kind, const Graph& graph, NodeId output) {
+  switch (fine_tune) {
+    case FineTune::none:
+      return output;
+    case FineTune::all:
+      return graph.inputs().at(0);
+    case FineTune::last_block:
+      break;
+  }
   const NodeId from = graph.find(kind.last_block_input);
   check(!graph.ancestors({from})[static_cast<std::size_t>(output)],
         "training.fine_tune: last_block, but sv_net.layer '", graph.node(output).name,

@@ -3,25 +3,22 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cmath>
 #include <cstdio>
 #include <limits>
 #include <numeric>
 
 #include "base/parallel.h"
-#include "nn/autograd.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
-#include "nn/optim/optimizer.h"
 #include "train/epoch_order.h"
-#include "train/finite.h"
+#include "train/training_step.h"
 
 namespace svnet {
 namespace {
 
 constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
 
-/// The sum of all numbers as integers: any difference shows, unless differences cancel.
+/// The sum of the bits of all parameters, as integers: it shows whether two processes have the same ones.
 std::uint64_t sum_of_bits(const Parameters& parameters) {
   std::atomic<std::uint64_t> sum = 0;
   for (const auto& [name, tensor] : parameters.items()) {
@@ -56,16 +53,12 @@ Trainer::Trainer(const Graph& graph, const TrainingSet& training, const Training
 }
 
 std::unique_ptr<Optimizer> Trainer::new_optimizer(const Parameters& parameters) const {
-  auto tensors = trainable(graph_, parameters);
-  if (options_.optimizer == TrainerOptions::Optimizer::sgd)
-    return sgd(std::move(tensors), {.momentum = options_.momentum});
-  return adam(std::move(tensors));
+  return make_optimizer(trainable(graph_, parameters), options_.optimizer);
 }
 
 std::vector<Shape> Trainer::optimizer_shapes() const {
   std::vector<Shape> shapes;  // one of each parameter and moment
-  const int moments = options_.optimizer == TrainerOptions::Optimizer::sgd ? 1 : 2;
-  for (int moment = 0; moment < moments; ++moment)
+  for (int moment = 0; moment < moments(options_.optimizer.kind); ++moment)
     for (const auto& node : graph_.nodes())
       for (const auto& spec : node.parameters)
         if (spec.trainable) shapes.push_back(spec.shape);
@@ -76,19 +69,14 @@ Index Trainer::steps_per_epoch() const { return batch_count(options_.batch_size,
 
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
-  const TrainingContext context{
-      .seed = options_.seed, .step = static_cast<std::uint64_t>(optimizer.steps), .communicator = &communicator_};
-  const Tensor score = svnet::train(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()}, context)[0];
-  const Tensor loss = ops::mean_squared_error(score, batch.targets);
-  check(std::isfinite(loss.item()), "[training] the loss is not finite at step ", optimizer.steps,
-        "; a smaller learning rate may help");
-  autograd::GradientMap gradients(autograd::GradientMap::Products::keep);
-  autograd::backward(loss, gradients);
-  for (const Tensor& parameter : trainable(graph_, parameters))
-    check(has_finite_gradient(gradients, parameter), "[training] a gradient is not finite at step ", optimizer.steps,
-          "; a smaller learning rate may help");
-  optimizer.step(gradients, options_.schedule.at(optimizer.steps));
-  return loss.item();
+  const auto loss = [&](const Tensor& score) { return ops::mean_squared_error(score, batch.targets); };
+  return training_step(graph_, parameters, optimizer, {batch.top_views, batch.angles}, loss,
+                       {.task = "training",
+                        .learning_rate = options_.schedule.at(optimizer.steps),
+                        .seed = options_.seed,
+                        .products = autograd::GradientMap::Products::keep,
+                        .communicator = &communicator_})
+      .loss;
 }
 
 double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) const {

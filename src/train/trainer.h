@@ -5,6 +5,7 @@
 #include "base/communicator.h"
 #include "base/progress.h"
 #include "io/models/checkpoint.h"
+#include "nn/optim/optimizer.h"
 #include "nn/optim/schedule.h"
 #include "train/training_set.h"
 
@@ -13,9 +14,8 @@ namespace svnet {
 struct TrainerOptions {
   Index epochs = 10;
   Index batch_size = 32;
-  enum class Optimizer { adam, sgd } optimizer = Optimizer::adam;
-  double momentum = 0.9;  // sgd
-  Schedule schedule;      // in steps
+  OptimizerOptions optimizer{};
+  Schedule schedule;  // in steps
   std::uint64_t seed = 0;
   std::string input_fingerprint;  // copied into checkpoints
 };
@@ -45,9 +45,9 @@ class Trainer {
   Index steps_per_epoch() const;
 
  private:
-  double step(std::span<const std::int32_t> examples, Parameters& parameters, class Optimizer& optimizer) const;
+  double step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const;
   double mean_loss(const TrainingSet& set, const Parameters& parameters) const;
-  std::unique_ptr<class Optimizer> new_optimizer(const Parameters& parameters) const;
+  std::unique_ptr<Optimizer> new_optimizer(const Parameters& parameters) const;
 
   const Graph& graph_;
   const TrainingSet& training_;

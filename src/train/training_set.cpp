@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/text.h"
-#include "models/orientation.h"
 #include "semantics/score_sums.h"
+#include "train/dataset_rows.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -32,7 +32,7 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, c
       Example example{.input = dataset.top_view(view.pose) * inputs.orientations() + orientation,
                       .angles = {},
                       .target = static_cast<float>(targets[i])};
-      encode_angles(angles, oriented_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
+      encode_angles(angles, symmetric_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
       examples_.push_back(example);
     }
   }
@@ -51,26 +51,6 @@ TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) co
   }
   batch.top_views = inputs_.batch(inputs);
   return batch;
-}
-
-void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what) {
-  check(paths.size() == dataset.views.size(), what, " of ", paths.size(), " views do not belong to a dataset of ",
-        dataset.views.size());
-  for (std::size_t i = 0; i < paths.size(); ++i)
-    check(paths[i] == dataset.views[i].path, what, ": row ", i, " is ", paths[i], ", the dataset has ",
-          dataset.views[i].path);
-}
-
-std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
-                                   const std::string& key) {
-  std::vector<bool> named(dataset.categories.size(), false);
-  for (const auto& name : names) {
-    const auto at = std::find(dataset.categories.begin(), dataset.categories.end(), name);
-    check(at != dataset.categories.end(), key, ": the dataset has no category '", name, "'",
-          suggestion(name, dataset.categories));
-    named[static_cast<std::size_t>(at - dataset.categories.begin())] = true;
-  }
-  return named;
 }
 
 }  // namespace svnet

@@ -5,11 +5,10 @@
 #include "io/views/scores_file.h"
 #include "models/sv_net.h"
 #include "nn/tensor.h"
+#include "train/config/choices.h"
 #include "train/view_inputs.h"
 
 namespace svnet {
-
-enum class Target { individual, global };
 
 /// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view, in every orientation
 /// that the inputs have.
@@ -42,13 +41,5 @@ class TrainingSet {
   AngleEncoding angles_;
   std::vector<Example> examples_;
 };
-
-/// Throws Error, beginning with `what`, unless `paths` are the dataset's views in its order.
-void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what);
-
-/// For each category of the dataset, whether it is among `names`. Throws Error, with `key` and the nearest category,
-/// for a name that is no category.
-std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
-                                   const std::string& key);
 
 }  // namespace svnet

@@ -4,8 +4,8 @@
 
 #include "base/parallel.h"
 #include "io/images/image_file.h"
-#include "models/orientation.h"
-#include "train/training_set.h"
+#include "train/dataset_rows.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -65,7 +65,7 @@ Tensor PictureInputs::made(std::span<const Index> inputs) const {
       if (orientation == 0)
         std::copy(as_taken.begin(), as_taken.end(), to);  // which need not be square
       else
-        orient(orientation, preprocessing_.width, as_taken.data(), to);
+        apply_symmetry(orientation, preprocessing_.width, as_taken.data(), to);
     }
   });
   return (frozen_ ? frozen_->run({pixels}) : pixels).reshaped(batched(count, shape()));

@@ -40,7 +40,7 @@ class FeatureInputs : public ViewInputs {
 class PictureInputs : public ViewInputs {
  public:
   struct Options {
-    int orientations = 1;  ///< at most kOrientations; with more than one the network's pictures must be square
+    int orientations = 1;  ///< at most kSymmetries; with more than one the network's pictures must be square
     bool flat = false;     ///< rows of numbers, as features are
   };
   /// Without frozen layers the input are the pixels. Keeps a reference to the dataset. Throws Error where pictures must

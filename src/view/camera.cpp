@@ -42,12 +42,12 @@ double viewing_radius_m(const Intrinsics& camera, double diagonal_m) {
          std::max(camera.fx / static_cast<double>(camera.width), camera.fy / static_cast<double>(camera.height));
 }
 
-Eigen::Vector3d outwards(const Pose& pose) {
+Eigen::Vector3d outwards(const CameraPose& pose) {
   const double theta = pose.theta_deg * std::numbers::pi / 180, phi = pose.phi_deg * std::numbers::pi / 180;
   return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
 }
 
-Eigen::Isometry3d camera_pose(const Pose& pose, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
+Eigen::Isometry3d look_at(const CameraPose& pose, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
   const std::string problem = pose_problem(pose);
   check(problem.empty(), "[view] ", problem);
   check(std::isfinite(radius_m) && radius_m > 0, "[view] the radius is ", radius_m, " m, expected a positive length");

@@ -4,10 +4,10 @@
 #include <string_view>
 
 #include "base/index.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
-// Camera poses on the half-sphere around an object (docs/camera-convention.md). Lengths are in metres; the world's z
-// axis is vertical.
+// Cameras on the half-sphere around an object (docs/camera-convention.md). Lengths are in metres; the world's z axis is
+// vertical.
 namespace svnet {
 
 /// A pinhole camera without distortion: pixel (x, y), with (0, 0) in the centre of the upper left pixel, sees the
@@ -18,15 +18,15 @@ struct Intrinsics {
   double cx = 0, cy = 0;        // the principal point in pixels
 };
 
-/// What is wrong with intrinsics, such as "fx is 0, expected a positive number of pixels"; empty where nothing is.
+/// What is wrong with intrinsics, such as "fx is 0, expected a positive number of pixels"; empty if they are valid.
 std::string intrinsics_problem(const Intrinsics&);
 
-/// The axes that a camera's orientation is given by:
-///   paper    z towards what it looks at, x level, y upwards (x to the left of the picture)
-///   optical  z forward, x right, y down, as pixels are numbered (ROS REP-103)
+/// The axes of a camera:
+///   paper    z forward, x left, y up; x is horizontal
+///   optical  z forward, x right, y down, as pixels are counted (ROS REP-103)
 enum class CameraFrame { paper, optical };
 
-/// As commands name them. camera_frame_named throws Error for an unknown name.
+/// "paper" and "optical". camera_frame_named throws Error for any other name.
 std::string name_of(CameraFrame);
 CameraFrame camera_frame_named(std::string_view name);
 
@@ -38,20 +38,20 @@ constexpr double kViewShare = 0.7;
 double viewing_radius_m(const Intrinsics&, double diagonal_m);
 
 /// The unit vector from the object to the camera, (cos φ cos θ, cos φ sin θ, sin φ).
-Eigen::Vector3d outwards(const Pose&);
+Eigen::Vector3d outwards(const CameraPose&);
 
-/// Camera to world: the camera at centre + R outwards(pose), looking at the centre, x level. At
-/// φ = 90° x has the direction of the limit for the given θ. Throws Error unless the pose is in range and R is
-/// positive.
-Eigen::Isometry3d camera_pose(const Pose&, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame);
+/// Camera to world, of a camera at centre + radius · outwards(pose) that looks at the centre with a horizontal x axis.
+/// At φ = 90° the x axis is the limit of those below for the same θ. Throws Error unless the pose is in range, the
+/// radius positive and everything finite.
+Eigen::Isometry3d look_at(const CameraPose&, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame);
 
-/// The rotation of a pose as files have it: of the two quaternions the one with w >= 0.
+/// The camera's orientation as files store it: the one with w >= 0 of the two quaternions.
 Eigen::Quaterniond orientation(const Eigen::Isometry3d& camera_to_world);
 
-/// The pixel that a point of the optical frame (z > 0) is seen at.
+/// The pixel at which a point of the optical frame (z > 0) appears.
 Eigen::Vector2d projected_px(const Intrinsics&, const Eigen::Vector3d& point_optical_m);
 
-/// The point of the optical frame that pixel (x, y) sees at the depth z = `depth_m`.
+/// The point of the optical frame with depth z = `depth_m` that appears at the pixel (x, y).
 Eigen::Vector3d deprojected_m(const Intrinsics&, double x_px, double y_px, double depth_m);
 
 }  // namespace svnet

@@ -23,13 +23,13 @@ HalfSphereCanvas::HalfSphereCanvas()
   ring(kRim, centre, kRim_px, 2);
 }
 
-HalfSphereCanvas::Point HalfSphereCanvas::place_of(const Pose& pose) {
+HalfSphereCanvas::Point HalfSphereCanvas::place_of(const CameraPose& pose) {
   const double radius = kRim_px * (90 - pose.phi_deg) / 90, theta = pose.theta_deg * std::numbers::pi / 180;
   return {kCentre_px + radius * std::cos(theta), kCentre_px - radius * std::sin(theta)};
 }
 
-/// Paints where `distance`, in pixels from a shape's edge and negative inside it, is below 0, with soft edges. The
-/// shape lies within `reach_px` of `centre`.
+/// Paints a shape with antialiased edges. `distance` gives the signed distance in pixels from the shape's edge,
+/// negative inside. The shape lies within `reach_px` of `centre`.
 template <class Distance>
 void HalfSphereCanvas::paint(const Colour& colour, Point centre, double reach_px, const Distance& distance) {
   const auto pixel_at = [](double x_px) { return std::clamp(static_cast<Index>(x_px), Index{0}, kSize_px); };
@@ -47,13 +47,13 @@ void HalfSphereCanvas::paint(const Colour& colour, Point centre, double reach_px
     }
 }
 
-void HalfSphereCanvas::disc(const Colour& colour, const Pose& pose, double radius_px) {
+void HalfSphereCanvas::disc(const Colour& colour, const CameraPose& pose, double radius_px) {
   const Point centre = place_of(pose);
   paint(colour, centre, radius_px,
         [&](Point p) { return std::hypot(p.x_px - centre.x_px, p.y_px - centre.y_px) - radius_px; });
 }
 
-void HalfSphereCanvas::circle(const Colour& colour, const Pose& centre, double radius_px, double width_px) {
+void HalfSphereCanvas::circle(const Colour& colour, const CameraPose& centre, double radius_px, double width_px) {
   ring(colour, place_of(centre), radius_px, width_px);
 }
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "image/image.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 namespace svnet {
 
@@ -13,15 +13,15 @@ using Colour = std::array<double, 3>;  // red, green and blue in [0, 255]
 /// `share` of b, the rest of a.
 Colour mixed(const Colour& a, const Colour& b, double share);
 
-/// A picture of the half-sphere of camera poses seen from above, 512x512 on white: the top view in the centre, the
-/// horizon at the rim, elevations evenly between (thin circles every 15°); azimuth 0° to the right, counter-clockwise
-/// (spokes every 45°). Shapes are drawn over one another with soft edges.
+/// An image (512x512, white) of the half-sphere of camera poses seen from above. The centre is the top view, the rim
+/// the horizon, and the distance from the centre is linear in the elevation (thin circles every 15°). Azimuth 0° points
+/// to the right and grows counter-clockwise (spokes every 45°). Later shapes cover earlier ones; edges are antialiased.
 class HalfSphereCanvas {
  public:
   HalfSphereCanvas();
 
-  void disc(const Colour&, const Pose& centre, double radius_px);
-  void circle(const Colour&, const Pose& centre, double radius_px, double width_px);
+  void disc(const Colour&, const CameraPose& centre, double radius_px);
+  void circle(const Colour&, const CameraPose& centre, double radius_px, double width_px);
 
   Image take() { return std::move(image_); }
 
@@ -29,7 +29,7 @@ class HalfSphereCanvas {
   struct Point {
     double x_px, y_px;
   };
-  static Point place_of(const Pose&);
+  static Point place_of(const CameraPose&);
   template <class Distance>
   void paint(const Colour&, Point centre, double reach_px, const Distance&);
   void spoke(const Colour&, double theta_deg);

@@ -2,17 +2,17 @@
 #include <vector>
 
 #include "base/index.h"
-#include "view/pose.h"
+#include "view/camera_pose.h"
 
 namespace svnet {
 
-/// The candidates of the paper: azimuth every 45° but for 270°, where the camera would see the robot's base, at
-/// elevations 45°, 60° and 75°, by rising elevation, then azimuth; and at last the top view, (90°, 90°).
-std::vector<Pose> paper_grid();
+/// The paper's 22 camera poses: elevations 45°, 60° and 75°, at each the azimuths 0°, 45°, … 315° without 270°, from
+/// where the camera would see the robot's base; then the top view (90°, 90°). Sorted by elevation, then azimuth.
+std::vector<CameraPose> paper_grid();
 
-/// `count` poses spread evenly over the half-sphere from the elevation `lowest_phi_deg` upwards: a Fibonacci lattice,
-/// pose i at sin φ = s + (1 - s)(i + ½) / count with s = sin(lowest φ), and at i golden angles. Throws Error unless
-/// count is positive and lowest_phi_deg in [0, 90).
-std::vector<Pose> fibonacci_half_sphere(Index count, double lowest_phi_deg);
+/// `count` poses spread evenly over the half-sphere above the elevation `lowest_phi_deg`, on a Fibonacci lattice: pose
+/// i has sin φ = s + (1 - s)(i + ½) / count with s = sin(lowest φ), and θ is i golden angles. Throws Error unless count
+/// is positive and lowest_phi_deg is in [0, 90).
+std::vector<CameraPose> fibonacci_half_sphere(Index count, double lowest_phi_deg);
 
 }  // namespace svnet

@@ -4,7 +4,7 @@
 
 namespace svnet {
 
-Image pose_plot(std::span<const Pose> poses, const std::vector<bool>& reachable) {
+Image pose_plot(std::span<const CameraPose> poses, const std::vector<bool>& reachable) {
   constexpr Colour kDot{33, 145, 140}, kOutline{40, 40, 40}, kEmpty{255, 255, 255};
   constexpr double kRadius_px = 8;
   HalfSphereCanvas canvas;

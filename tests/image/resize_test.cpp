@@ -71,6 +71,6 @@ TEST_CASE("a picture without pixels, or of another size than it says, is refused
 TEST_CASE("interpolations have names") {
   CHECK(interpolation_named("nearest") == Interpolation::nearest);
   CHECK(interpolation_named("bilinear") == Interpolation::bilinear);
-  CHECK(name_of(Interpolation::nearest) == "nearest");
+  CHECK(name_of(Interpolation::nearest) == std::string("nearest"));
   CHECK_THROWS_WITH(interpolation_named("bilinar"), "interpolation 'bilinar' is not known, did you mean 'bilinear'?");
 }

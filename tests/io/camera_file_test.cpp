@@ -8,8 +8,7 @@ using namespace svnet;
 
 TEST_CASE("a camera is written and read") {
   const TemporaryFolder folder;
-  const CameraFile camera{{640, 480, 600.5, 601, 319.5, 240},
-                          camera_pose({30, 60}, 0.7, {1, 2, 3}, CameraFrame::optical)};
+  const CameraFile camera{{640, 480, 600.5, 601, 319.5, 240}, look_at({30, 60}, 0.7, {1, 2, 3}, CameraFrame::optical)};
   const CameraFile read = read_camera(folder.write("camera.json", camera_json(camera)));
   CHECK(read.intrinsics.width == 640);
   CHECK(read.intrinsics.fx == 600.5);

@@ -63,10 +63,10 @@ TEST_CASE("a model says how many orientations of the top image it looks at, wher
   const auto path = temporary.path() / "model.safetensors";
   const auto written = [&](int orientations, Index height) {
     Model model = small_model();
-    model.orientations = orientations;
+    model.symmetries = orientations;
     model.preprocessing.height = height;
     write_model(path, model);
-    return read_model(path).orientations;
+    return read_model(path).symmetries;
   };
   CHECK(written(8, 96) == 8);
   CHECK(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));
@@ -95,10 +95,11 @@ TEST_CASE("every kind of layer survives JSON") {
             DepthwiseConv2dLayer{.kh = 3, .kw = 3, .multiplier = 2, .padding = Padding::of(1, 0, 1, 0), .bias = false},
             {x});
   x = g.add("sep", SeparableConv2dLayer{.filters = 5, .kh = 3, .kw = 3}, {x});
-  x = g.add("bn", BatchNormLayer{{.momentum = 0.1, .epsilon = 1e-5, .convention = ops::MomentumConvention::pytorch}},
-            {x});
+  x = g.add("bn", BatchNormLayer{{.momentum = 0.1, .epsilon = 1e-5, .convention = MomentumConvention::pytorch}}, {x});
   const NodeId a = g.add("act", ActivationLayer{Activation::sigmoid}, {x});
+  const NodeId swish = g.add("swish", ActivationLayer{Activation::hard_swish}, {x});
   x = g.add("sum", AddLayer{}, {x, a});
+  x = g.add("product", MultiplyLayer{}, {x, swish});
   x = g.add("max", Pool2dLayer{.kind = PoolKind::max, .window = {.kh = 2, .kw = 2, .stride_h = 2, .stride_w = 2}}, {x});
   x = g.add("mean",
             Pool2dLayer{.kind = PoolKind::average,
@@ -128,6 +129,10 @@ TEST_CASE("a graph that is none is refused with its node and attribute") {
   broken[2]["kind"] = "Denze";
   CHECK_THROWS_WITH(graph_from_json(broken, "f"),
                     Catch::Contains("unknown kind of layer 'Denze', did you mean 'Dense'?"));
+  broken = json;
+  broken[2]["activation"] = "hardswish";
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 2 'mlp1_1_fc': attribute 'activation': ") &&
+                                                      Catch::Contains("did you mean 'hard_swish'?"));
   broken = json;
   broken[3]["inputs"] = {"nobody"};
   CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 3 'mlp1_1_bn': [graph] no layer 'nobody'"));

@@ -10,12 +10,13 @@ using namespace svnet;
 TEST_CASE("poses are read from CSV") {
   const TemporaryFolder folder;
   const auto path = folder.write("poses.csv", "theta,phi\r\n0,45\r\n\r\n -22.5 ,\t6e1\r\n720,90");
-  CHECK(read_pose_list(path) == std::vector<Pose>{{0, 45}, {-22.5, 60}, {720, 90}});
+  CHECK(read_pose_list(path) == std::vector<CameraPose>{{0, 45}, {-22.5, 60}, {720, 90}});
 }
 
 TEST_CASE("a pose list may begin with a byte order mark") {
   const TemporaryFolder folder;
-  CHECK(read_pose_list(folder.write("poses.csv", "\xef\xbb\xbftheta,phi\r\n0,45\r\n")) == std::vector<Pose>{{0, 45}});
+  CHECK(read_pose_list(folder.write("poses.csv", "\xef\xbb\xbftheta,phi\r\n0,45\r\n")) ==
+        std::vector<CameraPose>{{0, 45}});
   CHECK_THROWS(read_pose_list(folder.write("poses.csv",
                                            "theta,phi\n\xef\xbb\xbf"
                                            "0,45\n")));
@@ -24,7 +25,7 @@ TEST_CASE("a pose list may begin with a byte order mark") {
 TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
   const TemporaryFolder folder;
   CHECK(read_pose_list(folder.write("poses.csv", "theta,phi,x_m,name\n0,45,1.5,first\n90,60,,\n")) ==
-        std::vector<Pose>{{0, 45}, {90, 60}});
+        std::vector<CameraPose>{{0, 45}, {90, 60}});
 }
 
 TEST_CASE("a pose list that is none is refused with file and line") {

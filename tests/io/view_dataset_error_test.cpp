@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Reading a data set that is whole but for `extra`, whose path must begin the message, fails with `reason` in it.
+/// Reading a dataset that is whole but for `extra`, whose path must begin the message, fails with `reason` in it.
 void check_refused(const fs::path& extra, const std::string& reason, bool as_folder = false) {
   const TemporaryFolder folder;
   folder.write("mug/1/1/90_90.png", "");
@@ -87,7 +87,7 @@ TEST_CASE("a pose without its top view is named") {
       (folder.path() / "mug/1/1").string() + ": pose without its top view; expected 90_90.png, .jpg, .jpeg or .webp");
 }
 
-TEST_CASE("a root that is no data set says what one is") {
+TEST_CASE("a root that is not a dataset says what one is") {
   const TemporaryFolder folder;
   const std::string expected =
       "folders category/object/pose with views PHI_THETA.png, .jpg, .jpeg or .webp, such as "

@@ -37,7 +37,8 @@ Setting plain_setting() {
 RgbdPicture picture(const Mesh* mesh, double x_m, double y_m, float exposure, std::uint32_t number) {
   Eigen::Isometry3d place(Eigen::Translation3d(x_m, y_m, 0.02));
   const Scene scene(mesh, place, plain_setting());
-  return sensed(scene.shoot(overview_camera(), overview_camera_to_world(), {5, number}, 2), {5, number}, exposure);
+  return sensor_picture(scene.shoot(overview_camera(), overview_camera_to_world(), {5, number}, 2), {5, number},
+                        exposure);
 }
 
 LocalisedObject find(const RgbdPicture& before, const RgbdPicture& after, const LocaliseOptions& options = {}) {
@@ -91,7 +92,7 @@ TEST_CASE("a knife that stands on its edge is found to its tip, though its blade
   for (const std::uint64_t seed : {1, 2, 3}) {
     INFO("seed " << seed);
     const PosedObject posed = pose_object(mesh, 1, seed, 7);
-    const Overview overview = take_overview(posed, seed, 7);
+    const Overview overview = capture_overview(posed, seed, 7);
     CHECK(find(overview.background, overview.current).length_m == Approx(0.315).margin(0.008));
   }
 }
@@ -179,7 +180,7 @@ std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
     const Mesh mesh = catalogue_object(names[static_cast<std::size_t>(i % categories)], i / categories, seeds.shapes);
     const auto number = static_cast<std::uint32_t>(i);
     const PosedObject posed = pose_object(mesh, i / categories % 3, seeds.poses, number);
-    const Overview overview = take_overview(posed, seeds.poses, number);
+    const Overview overview = capture_overview(posed, seeds.poses, number);
     std::vector<cv::Point2f> seen_from_above;
     double height = 0;
     for (const Vec3& point : mesh.points) {

@@ -1,5 +1,6 @@
 #include "nn/ops/activations.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -28,6 +29,22 @@ TEST_CASE("activations at their corners") {
   CHECK(same_bits(ops::softmax(row({-1000, 0})), row({0, 1})));
 }
 
+TEST_CASE("hard sigmoid and hard swish equal their formulas") {
+  const auto hard = [](Activation kind, double x) { return ops::activation(row({x}), kind).item(); };
+  for (double x : {-100.0, -3.0, -1.5, 0.0, 1.0, 3.0, 100.0}) {
+    const double clamped = std::min(std::max(x + 3, 0.0), 6.0) / 6;
+    CHECK(hard(Activation::hard_sigmoid, x) == Approx(clamped));
+    CHECK(hard(Activation::hard_swish, x) == Approx(x * clamped));
+  }
+  CHECK(same_bits(ops::activation(row({-4, -3, 3, 4}), Activation::hard_swish), row({0, 0, 3, 4})));
+}
+
+TEST_CASE("an activation is known by its name") {
+  for (const auto& [value, name] : enum_names<Activation>) CHECK(enum_from_name<Activation>("x", name) == value);
+  CHECK_THROWS_WITH(enum_from_name<Activation>("[activation]", "hardswish"),
+                    Catch::Contains("'hardswish' is none of linear, relu") && Catch::Contains("'hard_swish'"));
+}
+
 TEST_CASE("the gradient at a kink is 0") {
   const Tensor x = row({0, 6}).as_parameter();
   autograd::GradientMap gradients;
@@ -43,6 +60,8 @@ TEST_CASE("NaN passes through activations and losses") {
   CHECK(std::isnan(ops::relu(row({nan})).item()));
   CHECK(std::isnan(ops::relu6(row({nan})).item()));
   CHECK(std::isnan(ops::sigmoid(row({nan})).item()));
+  CHECK(std::isnan(ops::activation(row({nan}), Activation::hard_sigmoid).item()));
+  CHECK(std::isnan(ops::activation(row({nan}), Activation::hard_swish).item()));
   for (const Tensor& x : {row({nan, 1, 2}), row({1, nan, 2}), row({1, 2, nan})}) {
     const Tensor softmax = ops::softmax(x);
     for (double p : softmax.values<double>()) CHECK(std::isnan(p));

@@ -7,8 +7,6 @@
 
 using namespace svnet;
 using namespace svnet::test;
-using ops::BatchNormOptions;
-using ops::MomentumConvention;
 
 namespace {
 

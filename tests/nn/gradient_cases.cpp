@@ -1,5 +1,7 @@
 #include "nn/gradient_cases.h"
 
+#include <cmath>
+
 #include "nn/numbers.h"
 #include "nn/ops/activations.h"
 #include "nn/ops/batch_norm.h"
@@ -7,6 +9,7 @@
 #include "nn/ops/dense.h"
 #include "nn/ops/dropout.h"
 #include "nn/ops/losses.h"
+#include "nn/ops/multiply.h"
 #include "nn/ops/pooling.h"
 #include "nn/ops/shaping.h"
 
@@ -105,6 +108,16 @@ void add_dense(Cases& cases) {
                      }});
 }
 
+/// Numbers from −5 to 5, at least 0.01 away from −3 and 3.
+Tensor away_from_kinks_at_3(const Shape& shape) {
+  Tensor x = random_tensor(shape, 46, DType::f64, -5, 5);
+  for (Index i = 0; i < x.size(); ++i) {
+    double& value = x.data<double>()[i];
+    if (std::abs(std::abs(value) - 3) < 0.01) value += 0.05;
+  }
+  return x;
+}
+
 void add_activations(Cases& cases) {
   cases.push_back({"relu", "", {spaced_tensor(kImages, 16)}, [](const Inputs& in) { return ops::relu(in[0]); }});
   // Shifted by 3, the numbers cover both kinks and stay 0.01 away from them.
@@ -114,17 +127,33 @@ void add_activations(Cases& cases) {
   cases.push_back({"sigmoid", "", {random_tensor(kImages, 18, DType::f64, -4, 4)}, [](const Inputs& in) {
                      return ops::sigmoid(in[0]);
                    }});
+  for (const Activation hard : {Activation::hard_sigmoid, Activation::hard_swish})
+    cases.push_back({name_of(hard), "", {away_from_kinks_at_3(kImages)}, [hard](const Inputs& in) {
+                       return ops::activation(in[0], hard);
+                     }});
   for (const Shape& s : {Shape{5, 7}, Shape{2, 3, 4}})
     cases.push_back({"softmax", to_string(s), {random_tensor(s, 19, DType::f64, -2, 2)}, [](const Inputs& in) {
                        return ops::softmax(in[0]);
                      }});
 }
 
+void add_multiply(Cases& cases) {
+  for (const Shape& factor : {kImages, Shape{2, 1, 1, 3}, Shape{2, 3}})
+    cases.push_back(
+        {"multiply", to_string(factor), {random_tensor(kImages, 47), random_tensor(factor, 48)}, [](const Inputs& in) {
+           return ops::multiply(in[0], in[1]);
+         }});
+  cases.push_back(
+      {"multiply", "the factor first", {random_tensor({2, 3}, 48), random_tensor(kImages, 47)}, [](const Inputs& in) {
+         return ops::multiply(in[0], in[1]);
+       }});
+}
+
 void add_batch_norm(Cases& cases) {
   for (const Shape& s : {Shape{9, 4}, Shape{2, 4}, Shape{3, 5, 7, 4}}) {
     const Inputs inputs{random_tensor(s, 20, DType::f64, -1, 3), random_tensor({4}, 21, DType::f64, 0.5, 2),
                         random_tensor({4}, 22)};
-    for (auto convention : {ops::MomentumConvention::keras, ops::MomentumConvention::pytorch})
+    for (auto convention : {MomentumConvention::keras, MomentumConvention::pytorch})
       cases.push_back({"batch_norm_training", to_string(s), inputs, [convention](const Inputs& in) {
                          const DType dtype = in[0].dtype();
                          Tensor mean = Tensor::zeros({4}, dtype), variance = Tensor::full({4}, 1, dtype);
@@ -203,8 +232,8 @@ void add_network(Cases& cases) {
 
 std::vector<GradientCase> gradient_cases() {
   Cases cases;
-  for (const auto add : {add_convolutions, add_pooling, add_dense, add_activations, add_batch_norm, add_shaping,
-                         add_losses, add_network})
+  for (const auto add : {add_convolutions, add_pooling, add_dense, add_activations, add_multiply, add_batch_norm,
+                         add_shaping, add_losses, add_network})
     add(cases);
   return cases;
 }

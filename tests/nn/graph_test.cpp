@@ -31,6 +31,12 @@ TEST_CASE("a graph infers the shape of each layer") {
   CHECK(shape_of(ReshapeLayer{{13, 45}}) == Shape{13, 45});
   CHECK(shape_of(DropoutLayer{}) == Shape{15, 13, 3});
   CHECK(graph.node(graph.add("sum", AddLayer{}, {image, image})).shape == Shape{15, 13, 3});
+  const NodeId mean = graph.find("layer7"), kept = graph.find("layer8");
+  for (const NodeId factor : {image, mean, kept}) {
+    const std::string name = joined("product", factor);
+    CHECK(graph.node(graph.add(name, MultiplyLayer{}, {image, factor})).shape == Shape{15, 13, 3});
+    CHECK(graph.node(graph.add(name + "_swapped", MultiplyLayer{}, {factor, image})).shape == Shape{15, 13, 3});
+  }
   CHECK(graph.node(graph.add("join", ConcatLayer{}, {image, image})).shape == Shape{15, 13, 6});
   CHECK(graph.node(graph.add("score", DenseLayer{.units = 2}, {graph.find("layer10")})).shape == Shape{2});
 }
@@ -53,6 +59,11 @@ TEST_CASE("a graph says which layer does not fit, and why") {
   CHECK_THROWS_WITH(add(AddLayer{}, {image, wide}),
                     "[graph] layer 'block1_conv1': [Add] shapes differ: 5x5x3 and 5x6x3");
   CHECK_THROWS_WITH(add(AddLayer{}, {image}), "[graph] layer 'block1_conv1': [Add] takes two inputs or more, got 1");
+  CHECK_THROWS_WITH(
+      add(MultiplyLayer{}, {image, wide}),
+      "[graph] layer 'block1_conv1': [Multiply] expects one shape, or HxWxC and 1x1xC or C, got 5x5x3 and "
+      "5x6x3");
+  CHECK_THROWS_WITH(add(MultiplyLayer{}, {image}), "[graph] layer 'block1_conv1': [Multiply] takes two inputs, got 1");
   CHECK_THROWS_WITH(add(ConcatLayer{}, {image, wide}),
                     "[graph] layer 'block1_conv1': [Concatenate] shapes differ before the last axis: 5x5x3 and 5x6x3");
   CHECK_THROWS_WITH(add(ConcatLayer{}, {image, flat}),

@@ -124,6 +124,42 @@ TEST_CASE("a compiled graph computes what its layers say, whichever layer is the
     }
 }
 
+namespace {
+
+/// Blocks with squeeze and excitation, as in MobileNetV3: hard activations and products of all shapes.
+Graph squeeze_and_excite() {
+  Graph g;
+  const NodeId image = g.input("image", {12, 10, 5});
+  NodeId x = g.add("conv", Conv2dLayer{.filters = 19, .kh = 3, .kw = 3, .bias = false}, {image});
+  x = g.add("norm", BatchNormLayer{}, {x});
+  const NodeId y = x = g.add("swish", ActivationLayer{Activation::hard_swish}, {x});
+  x = g.add("squeeze", GlobalPool2dLayer{.keep_dimensions = true}, {x});
+  x = g.add("reduce", Conv2dLayer{.filters = 8, .activation = Activation::relu}, {x});
+  x = g.add("excite", Conv2dLayer{.filters = 19, .activation = Activation::hard_sigmoid}, {x});
+  x = g.add("scaled", MultiplyLayer{}, {y, x});
+  const NodeId flat = g.add("flat_squeeze", GlobalPool2dLayer{}, {x});
+  x = g.add("factor_first", MultiplyLayer{}, {flat, x});
+  x = g.add("square", MultiplyLayer{}, {x, x});
+  x = g.add("relu6", ActivationLayer{Activation::relu6}, {x});
+  x = g.add("pool", GlobalPool2dLayer{}, {x});
+  g.add("gated", MultiplyLayer{}, {x, flat});
+  return g;
+}
+
+}  // namespace
+
+TEST_CASE("compiled squeeze and excitation computes what its layers say, whichever layer is the output") {
+  const Graph graph = squeeze_and_excite();
+  const Parameters parameters = drawn(graph);
+  for (NodeId output = 1; output <= graph.output(); ++output) {
+    INFO("output " << graph.node(output).name);
+    const Tensor expected = infer(graph, parameters, {kImages}, {output})[0];
+    const Tensor actual = Inference(graph, parameters, output).run({kImages});
+    CHECK(actual.shape() == expected.shape());
+    CHECK(relative_distance(actual, expected) <= 5e-6);
+  }
+}
+
 TEST_CASE("compiling fuses what has one reader") {
   const Graph graph = all_layers();
   const auto program = runtime::compile(graph, drawn(graph), graph.output(), runtime::Convolution::automatic);

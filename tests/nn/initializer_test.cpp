@@ -1,4 +1,4 @@
-#include "nn/graph/initializer.h"
+#include "nn/layers/initializer.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

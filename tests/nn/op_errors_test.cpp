@@ -6,6 +6,7 @@
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
 #include "nn/ops/losses.h"
+#include "nn/ops/multiply.h"
 #include "nn/ops/pooling.h"
 #include "nn/ops/shaping.h"
 
@@ -47,6 +48,13 @@ TEST_CASE("pooling says what does not fit") {
                     "[max_pool2d] images of 1x0x2x1 are empty");
   CHECK_THROWS_WITH(ops::global_max_pool2d(zeros({2, 3})), "[global_max_pool2d] expects images NxHxWxC, got 2x3");
   CHECK_THROWS_WITH(ops::global_average_pool2d({}), "[global_average_pool2d] an operand is an empty tensor");
+}
+
+TEST_CASE("products say what does not fit") {
+  CHECK_THROWS_WITH(ops::multiply(zeros({2, 4, 5, 3}), zeros({2, 4, 1, 3})),
+                    "[multiply] expects one shape, or NxHxWxC and Nx1x1xC or NxC, got 2x4x5x3 * 2x4x1x3");
+  CHECK_THROWS_WITH(ops::multiply(zeros({2, 4, 5, 3}), zeros({1, 3})), Catch::Contains("got 2x4x5x3 * 1x3"));
+  CHECK_THROWS_WITH(ops::multiply(zeros({2, 3}), zeros({2, 3}).to(DType::f64)), "[multiply] operands mix f32 and f64");
 }
 
 TEST_CASE("dense layers and batch norm say what does not fit") {

@@ -20,7 +20,7 @@ Pixel pixel(const Image& image, Index x, Index y) {
 }  // namespace
 
 TEST_CASE("poses are where they are seen from above, coloured by their score, the best one ringed") {
-  const std::vector<Pose> poses{{0, 45}, {90, 45}, {-180, 0}, {90, 90}};
+  const std::vector<CameraPose> poses{{0, 45}, {90, 45}, {-180, 0}, {90, 90}};
   const Image image = half_sphere_plot(poses, std::vector<float>{0.5f, 0.9f, 0.1f, 0.5f});
   REQUIRE(image.height == 512);
   REQUIRE(image.width == 512);
@@ -35,13 +35,13 @@ TEST_CASE("poses are where they are seen from above, coloured by their score, th
 }
 
 TEST_CASE("of dots on the same place the best lies on top, equal scores are all the highest") {
-  const std::vector<Pose> poses{{0, 90}, {90, 90}, {180, 90}};
+  const std::vector<CameraPose> poses{{0, 90}, {90, 90}, {180, 90}};
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.1f, 0.9f, 0.5f}), 256, 256) == kHighest);
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.5f, 0.5f, 0.5f}), 256, 256) == kHighest);
 }
 
 TEST_CASE("poses and scores that cannot be drawn are refused") {
-  const std::vector<Pose> poses{{0, 45}, {0, 99}};
+  const std::vector<CameraPose> poses{{0, 45}, {0, 99}};
   CHECK_THROWS_WITH(half_sphere_plot(poses, std::vector<float>{0.5f}), "[plot] there are 2 poses and 1 scores");
   CHECK_THROWS_WITH(half_sphere_plot(poses, std::vector<float>{0.5f, 0.5f}),
                     "[plot] pose 1: phi 99 is outside [0, 90] degrees");

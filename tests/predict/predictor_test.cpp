@@ -5,11 +5,11 @@
 #include <limits>
 #include <thread>
 
-#include "models/orientation.h"
 #include "nn/graph/run.h"
 #include "small_model.h"
 #include "temporary_folder.h"
 #include "view/pose_grid.h"
+#include "view/symmetry.h"
 
 using namespace svnet;
 
@@ -23,14 +23,14 @@ Tensor plain_features(const Model& model, const Image& image) {
                {model.backbone_graph.find(model.backbone_output)})[0];
 }
 
-double plain_score(const Model& model, const Tensor& features, const Pose& pose) {
+double plain_score(const Model& model, const Tensor& features, const CameraPose& pose) {
   Tensor angles = Tensor::empty({1, angle_count(model.angles)});
   encode_angles(model.angles, pose.theta_deg, pose.phi_deg, angles.data<float>());
   return infer(model.head, model.head_parameters, {features, angles}, {model.head.output()})[0].data<float>()[0];
 }
 
-std::vector<Pose> many_poses() {
-  std::vector<Pose> poses;
+std::vector<CameraPose> many_poses() {
+  std::vector<CameraPose> poses;
   for (int i = 0; i < 75; ++i) poses.push_back({i * 4.7, (i * 13) % 91 * 1.0});
   return poses;
 }
@@ -49,7 +49,7 @@ TEST_CASE("a predictor gives the features and scores of its model, as many poses
     REQUIRE(features.size() == expected.size());
     for (Index i = 0; i < features.size(); ++i)
       CHECK(features.data<float>()[i] == Approx(expected.data<float>()[i]).margin(1e-5));
-    const std::vector<Pose> poses = many_poses();
+    const std::vector<CameraPose> poses = many_poses();
     const std::vector<float> scores = predictor.scores(features, poses);
     REQUIRE(scores.size() == poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i)
@@ -59,29 +59,29 @@ TEST_CASE("a predictor gives the features and scores of its model, as many poses
   }
 }
 
-TEST_CASE("a model of all orientations gives the mean over them, whichever of them the picture is taken in") {
+TEST_CASE("a model of all symmetries gives the mean over them, whichever of them the picture is taken in") {
   Model model = small_model(AngleEncoding::harmonics);
   const Predictor as_taken(model);
-  model.orientations = kOrientations;
+  model.symmetries = kSymmetries;
   const Predictor predictor(model);
-  CHECK(predictor.feature_count() == kOrientations * as_taken.feature_count());
+  CHECK(predictor.feature_count() == kSymmetries * as_taken.feature_count());
 
   // The picture at the size of the network, so that turning it comes first or last alike.
   const Image picture = small_picture(96, 96);
   const std::vector<float> pixels(picture.rgb.begin(), picture.rgb.end());
   std::vector<float> turned(pixels.size());
-  const std::vector<Pose> poses = many_poses();
+  const std::vector<CameraPose> poses = many_poses();
   const std::vector<float> scores = predictor.scores(predictor.embed(picture), poses);
   std::vector<double> mean(poses.size(), 0);
-  for (int orientation = 0; orientation < kOrientations; ++orientation) {
-    orient(orientation, 96, pixels.data(), turned.data());
+  for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+    apply_symmetry(symmetry, 96, pixels.data(), turned.data());
     const Image image{96, 96, std::vector<std::uint8_t>(turned.begin(), turned.end())};
-    std::vector<Pose> seen;
-    for (const Pose& pose : poses) seen.push_back({oriented_theta_deg(orientation, pose.theta_deg), pose.phi_deg});
+    std::vector<CameraPose> seen;
+    for (const CameraPose& pose : poses) seen.push_back({symmetric_theta_deg(symmetry, pose.theta_deg), pose.phi_deg});
     const std::vector<float> alone = as_taken.scores(as_taken.embed(image), seen);
     const std::vector<float> together = predictor.scores(predictor.embed(image), seen);
     for (std::size_t i = 0; i < poses.size(); ++i) {
-      mean[i] += alone[i] / static_cast<double>(kOrientations);
+      mean[i] += alone[i] / static_cast<double>(kSymmetries);
       CHECK(together[i] == Approx(scores[i]).margin(1e-5));
     }
   }
@@ -92,8 +92,8 @@ TEST_CASE("a model of all orientations gives the mean over them, whichever of th
 TEST_CASE("poses a whole turn apart have the same score") {
   const Predictor predictor(small_model());
   const Tensor features = predictor.embed(small_picture());
-  const std::vector<Pose> poses{{315, 45}, {-45, 45}, {675, 45},  {0, 60},
-                                {360, 60}, {720, 60}, {-360, 60}, {-1e-20, 60}};
+  const std::vector<CameraPose> poses{{315, 45}, {-45, 45}, {675, 45},  {0, 60},
+                                      {360, 60}, {720, 60}, {-360, 60}, {-1e-20, 60}};
   const std::vector<float> scores = predictor.scores(features, poses);
   for (const std::size_t i : {1, 2}) CHECK(scores[i] == scores[0]);
   for (const std::size_t i : {4, 5, 6, 7}) CHECK(scores[i] == scores[3]);
@@ -111,9 +111,9 @@ TEST_CASE("poses out of range are refused") {
   const Predictor predictor(small_model());
   const Tensor features = predictor.embed(small_picture());
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
-  const auto message = [&](const Pose& pose) {
+  const auto message = [&](const CameraPose& pose) {
     try {
-      predictor.scores(features, std::vector<Pose>{{0, 45}, pose});
+      predictor.scores(features, std::vector<CameraPose>{{0, 45}, pose});
     } catch (const Error& error) {
       return std::string(error.what());
     }
@@ -131,7 +131,7 @@ TEST_CASE("poses out of range are refused") {
 
 TEST_CASE("features and images that do not fit are refused") {
   const Predictor predictor(small_model());
-  const std::vector<Pose> poses{{0, 45}};
+  const std::vector<CameraPose> poses{{0, 45}};
   const std::string dimension = std::to_string(predictor.feature_count());
   CHECK_THROWS_WITH(predictor.scores(Tensor::zeros({1, 3}), poses),
                     "[predict] features are 1x3, the model expects 1x" + dimension + " f32");

@@ -156,7 +156,7 @@ TEST_CASE("partitions of 1000 problems are those of scikit-learn, for each linka
     for (Linkage linkage : kLinkages) {
       std::uint32_t expected = 0;
       REQUIRE(words >> expected);
-      INFO("problem " << problem << ", " << linkage_name(linkage) << ", " << n << " points, " << k << " clusters");
+      INFO("problem " << problem << ", " << name_of(linkage) << ", " << n << " points, " << k << " clusters");
       CHECK(fnv1a(clustered(linkage, distances, all_rows(n), k)) == expected);
     }
   }
@@ -178,7 +178,7 @@ TEST_CASE("every linkage agrees with the naive algorithm on subsets of rows in a
       const Index k = 1 + random.below(static_cast<std::uint32_t>(count));
       std::vector<std::int32_t> labels(count);
       workspace.cluster(distances, rows, k, labels);
-      INFO(linkage_name(linkage) << ", " << count << " points, " << k << " clusters");
+      INFO(name_of(linkage) << ", " << count << " points, " << k << " clusters");
       REQUIRE(labels == naive(linkage, {values, dimension}, rows, k));
     }
   }
@@ -267,7 +267,7 @@ TEST_CASE("agglomerative clustering allocates nothing") {
 }
 
 TEST_CASE("linkages have names") {
-  for (Linkage linkage : kLinkages) CHECK(linkage_named(linkage_name(linkage)) == linkage);
+  for (Linkage linkage : kLinkages) CHECK(linkage_named(name_of(linkage)) == linkage);
   CHECK_THROWS_WITH(linkage_named("wart"), Catch::Contains("[linkage] 'wart' is unknown, did you mean 'ward'?"));
 }
 

@@ -57,11 +57,11 @@ TEST_CASE("sums of parts are the sums of the whole, and taking leaves nothing") 
   whole.problems = 9;
   left.problems = 4;
   right.problems = 5;
-  left.take(right);
+  left.add_and_clear(right);
   CHECK(left == whole);
   CHECK(right == ScoreSums(2));
   ScoreSums other(3);
-  CHECK_THROWS_WITH(left.take(other), "[scores] sums of 3 views cannot be added to those of 2");
+  CHECK_THROWS_WITH(left.add_and_clear(other), "[scores] sums of 3 views cannot be added to those of 2");
 }
 
 TEST_CASE("rank stability is the agreement of the halves on pairs of views") {

@@ -100,7 +100,7 @@ TEST_CASE("standard errors cover the exact expectations as often as they promise
 TEST_CASE("scores have the same bits for any number of threads") {
   const Fixture f;
   const auto problems = f.problems();
-  for (auto method : {ClusteringOptions::Method::agglomerative, ClusteringOptions::Method::kmeans})
+  for (auto method : {Clustering::ward, Clustering::kmeans})
     for (ScoreOptions options : {ScoreOptions{.problems = 5000}, ScoreOptions{.min_samples = 5000}}) {
       options.seed = 73;
       options.clustering = {.method = method, .kmeans = {.n_init = 2}, .dimension = 3};
@@ -179,7 +179,7 @@ TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
   ScoreSums last(problems.views()), first(problems.views());
   solver.solve(10007, 40000, last);
   solver.solve(0, 10007, first);
-  first.take(last);
+  first.add_and_clear(last);
   CHECK(first == whole);
 }
 
@@ -192,9 +192,9 @@ TEST_CASE("another seed or clustering gives other scores") {
   const auto ward = individual({.problems = 2000, .seed = 77});
   CHECK(individual({.problems = 2000, .seed = 77}) == ward);
   CHECK(individual({.problems = 2000, .seed = 78}) != ward);
-  CHECK(individual({.problems = 2000, .seed = 77, .clustering = {.linkage = Linkage::single}}) != ward);
-  const auto kmeans = individual(
-      {.problems = 2000, .seed = 77, .clustering = {.method = ClusteringOptions::Method::kmeans, .dimension = 3}});
+  CHECK(individual({.problems = 2000, .seed = 77, .clustering = {.method = Clustering::single}}) != ward);
+  const auto kmeans =
+      individual({.problems = 2000, .seed = 77, .clustering = {.method = Clustering::kmeans, .dimension = 3}});
   CHECK(kmeans != ward);
 }
 
@@ -202,7 +202,7 @@ TEST_CASE("solving problems allocates nothing per problem") {
   const Fixture f;
   const auto problems = f.problems();
   Parallel one(1);
-  for (auto method : {ClusteringOptions::Method::agglomerative, ClusteringOptions::Method::kmeans}) {
+  for (auto method : {Clustering::ward, Clustering::kmeans}) {
     ProblemSolver solver(f.distances, problems, ProblemScoring{.clustering = {.method = method}}, one);
     ScoreSums sums(problems.views());
     const auto cost = [&](std::uint64_t count) {
@@ -253,7 +253,6 @@ TEST_CASE("scores refuse options that cannot be followed") {
   SingleProcess single_process;
   CHECK_THROWS_WITH(continue_scores(f.distances, problems, {.problems = 1}, Parallel::shared(), single_process, wrong),
                     "[scores] the sums so far are of 2 views, the problems of 17");
-  CHECK_THROWS_WITH(
-      scores({.problems = 1, .clustering = {.method = ClusteringOptions::Method::kmeans, .dimension = 0}}),
-      "[kmeans] the features have dimension 0; at least 1 is needed");
+  CHECK_THROWS_WITH(scores({.problems = 1, .clustering = {.method = Clustering::kmeans, .dimension = 0}}),
+                    "[kmeans] the features have dimension 0; at least 1 is needed");
 }

@@ -146,7 +146,7 @@ TEST_CASE("a scene sees a block where the camera's equations put it") {
   RandomStream random(1, Stream::collection);
   const Scene scene(&mesh, Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.02)), random_setting(random));
   const Intrinsics camera{101, 81, 100, 100, 50, 40};
-  const auto from = camera_pose({90, 90}, 1, {0, 0, 0}, CameraFrame::optical);
+  const auto from = look_at({90, 90}, 1, {0, 0, 0}, CameraFrame::optical);
   const Shot shot = scene.shoot(camera, from, {}, 1);
   // The top face is 0.96 m away: 100 mm are 10.4 pixels, 60 mm are 6.25.
   for (Index y = 0; y < 81; ++y)
@@ -168,7 +168,7 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   shot.depth.metres.assign(40000, 0.8f);
   shot.mask.assign(40000, 0);
   shot.depth.metres[100 * 200 + 100] = 0.5f;  // a spike, whose neighbours are on a silhouette
-  const RgbdPicture picture = sensed(shot, {3, 7});
+  const RgbdPicture picture = sensor_picture(shot, {3, 7});
   double sum = 0, squares = 0;
   Index holes = 0, count = 0;
   for (const float z : picture.depth.metres) {
@@ -186,8 +186,8 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   double level = 0;
   for (const std::uint8_t value : picture.rgb.rgb) level += value;
   CHECK(level / 120000 == Approx(static_cast<double>(srgb_from_linear(0.2f))).margin(0.5));
-  CHECK(sensed(shot, {3, 8}).rgb.rgb != picture.rgb.rgb);
-  CHECK(sensed(shot, {3, 7}).rgb.rgb == picture.rgb.rgb);
+  CHECK(sensor_picture(shot, {3, 8}).rgb.rgb != picture.rgb.rgb);
+  CHECK(sensor_picture(shot, {3, 7}).rgb.rgb == picture.rgb.rgb);
 }
 
 TEST_CASE("sRGB goes there and back") {
@@ -200,13 +200,13 @@ TEST_CASE("nothing of a localised object is cut off in its views, and about one 
   for (const char* category : {"hammer", "mug", "plate", "key"}) {
     const Mesh mesh = catalogue_object(category, 1, 1);
     const PosedObject posed = pose_object(mesh, 0, 11, 5);
-    const Overview overview = take_overview(posed, 11, 5);
+    const Overview overview = capture_overview(posed, 11, 5);
     const LocalisedObject object =
         localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
                  {overview.current.rgb, overview.current.depth});
     const Scene scene(&mesh, posed.object_to_world, posed.setting);
     for (std::size_t view = 0; view < posed.views.size(); view += 4) {
-      const Shot shot = take_view(posed, scene, object, 64, 11, 5, view).shot;
+      const Shot shot = capture_view(posed, scene, object, 64, 11, 5, view).shot;
       bool cut_off = false;
       Index seen = 0;
       for (Index i = 0; i < 64; ++i)
@@ -221,7 +221,7 @@ TEST_CASE("nothing of a localised object is cut off in its views, and about one 
   for (std::uint32_t number = 0; number < 300; ++number) {
     const auto posed = pose_object(mesh, 0, 1, number);
     CHECK(posed.views.size() >= 17);
-    CHECK(posed.views.back() == Pose{90, 90});
+    CHECK(posed.views.back() == CameraPose{90, 90});
     views += static_cast<Index>(posed.views.size()), ++poses;
   }
   const double mean = static_cast<double>(views) / static_cast<double>(poses);

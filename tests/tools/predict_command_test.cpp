@@ -31,7 +31,7 @@ class Workplace {
 TEST_CASE("svnet-predict prints the paper's grid, best first") {
   const Workplace place;
   const Predictor predictor(small_model());
-  const std::vector<Pose> poses = paper_grid();
+  const std::vector<CameraPose> poses = paper_grid();
   const std::vector<float> scores = predictor.scores(predictor.embed(small_picture()), poses);
   const std::vector<std::size_t> order = best_first(scores);
 
@@ -70,7 +70,7 @@ TEST_CASE("svnet-predict takes candidates from a file and draws them") {
   for (const char* part : {"10        50", "200.5        70", "-90         0"})
     CHECK_THAT(ran.out, Catch::Contains(part));
   const Predictor predictor(small_model());
-  const std::vector<Pose> poses{{10, 50}, {200.5, 70}, {-90, 0}};
+  const std::vector<CameraPose> poses{{10, 50}, {200.5, 70}, {-90, 0}};
   const Image expected = half_sphere_plot(poses, predictor.scores(predictor.embed(small_picture()), poses));
   CHECK(read_image(place.folder.path() / "plot.png").rgb == expected.rgb);
 }

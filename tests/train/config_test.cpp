@@ -54,16 +54,16 @@ evaluation:
   CHECK(c.dataset.root == "/work/views");
   CHECK(c.dataset.held_out == std::vector<std::string>{"comb", "tooth brush", "12"});
   CHECK(c.weights.folder.empty());
-  CHECK(c.scores.clustering == Config::Scores::Clustering::kmeans);
+  CHECK(c.scores.clustering == Clustering::kmeans);
   CHECK(c.scores.min_samples == 200000);
-  CHECK(c.scores.singletons == Config::Scores::Singletons::skip);
+  CHECK(c.scores.singletons == Singletons::skip);
   CHECK(c.scores.target_error == 0.001);
   CHECK(c.sv_net.layer == "block5_pool");
-  CHECK(c.sv_net.angles == Config::SvNet::Angles::sphere);
-  CHECK(c.sv_net.orientations == Config::SvNet::Orientations::all);
+  CHECK(c.sv_net.angles == AngleEncoding::sphere);
+  CHECK(c.sv_net.orientations == Orientations::all);
   CHECK(c.sv_net.dropout == 0);
   CHECK(c.evaluation.pipelines == std::vector<std::string>{"mobilenet_v2_ward", "xception_single"});
-  CHECK(c.evaluation.nmi == Config::Evaluation::Nmi::geometric);
+  CHECK(c.evaluation.nmi == NmiAverage::geometric);
   CHECK(c.sv_net.backbone == "vgg19");
   CHECK(c.training.batch_size == 32);
   CHECK(c.training.learning_rate == 1e-3);
@@ -78,7 +78,7 @@ TEST_CASE("every error of a key names file, line and key") {
   CHECK(at_line_3("sv_net:\n  optimizer: adam") ==
         "c.yaml:4: sv_net.optimizer: unknown key, did you mean 'training.optimizer'?");
   CHECK(at_line_3("evaluation: {seeds: []}") ==
-        "c.yaml:3: evaluation.seeds: unknown key; known: problems, pipelines, nmi");
+        "c.yaml:3: evaluation.seeds: unknown key; known: problems, pipelines, selectors, nmi");
   CHECK(at_line_3("seed: 1\nseed: 2") == "c.yaml:4: key 'seed' is given twice, first on line 3");
   CHECK(at_line_3("training:\n  epochs: 1\n  epochs: 1") ==
         "c.yaml:5: key 'training.epochs' is given twice, first on line 4");
@@ -163,7 +163,7 @@ TEST_CASE("overrides are applied in order and their errors say --set") {
   CHECK(c.sv_net.layer.empty());
   CHECK(c.scores.layer == "a=b");
   CHECK(c.dataset.held_out == std::vector<std::string>{"car", "dog"});
-  CHECK(c.training.optimizer == Config::Training::Optimizer::sgd);
+  CHECK(c.training.optimizer == OptimizerKind::sgd);
 
   CHECK(error_of_override("epochs=3") == "--set epochs: unknown key, did you mean 'training.epochs'?");
   CHECK(error_of_override("train.epochs=3") == "--set train.epochs: unknown key, did you mean 'training.epochs'?");
@@ -209,7 +209,7 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   CHECK(again.training.momentum == 0.30000000000000004);
   CHECK(again.scores.layer == "~");
   CHECK(again.seed == 9223372036854775807);
-  CHECK(again.scores.singletons == Config::Scores::Singletons::skip);
+  CHECK(again.scores.singletons == Singletons::skip);
 }
 
 TEST_CASE("the tables are of the pipeline of the scores where none is named") {
@@ -244,7 +244,7 @@ TEST_CASE("configs/paper.yaml documents every key with the paper's values") {
   CHECK(c.scores.min_samples == 200000);
   CHECK(c.sv_net.width == 4096);
   CHECK(c.evaluation.problems == 10000);
-  CHECK(c.evaluation.nmi == Config::Evaluation::Nmi::geometric);
+  CHECK(c.evaluation.nmi == NmiAverage::geometric);
 }
 
 TEST_CASE("the other configurations of the project are valid") {
@@ -255,10 +255,9 @@ TEST_CASE("the other configurations of the project are valid") {
 TEST_CASE("a pipeline's name is a backbone and a clustering after the last underscore") {
   const PipelineName name = parse_pipeline("mobilenet_v2_kmeans", "");
   CHECK(name.backbone == "mobilenet_v2");
-  CHECK(name.clustering == Config::Scores::Clustering::kmeans);
-  CHECK(clustering_name(name.clustering) == "kmeans");
-  CHECK(clustering_from_name("single") == Config::Scores::Clustering::single);
-  CHECK_THROWS_WITH(clustering_from_name("wards"),
-                    "clustering: unknown value 'wards', expected one of ward, average, complete, single, kmeans; did "
-                    "you mean 'ward'?");
+  CHECK(name.clustering == Clustering::kmeans);
+  CHECK(name_of(name.clustering) == std::string("kmeans"));
+  CHECK(enum_from_name<Clustering>("clustering", "single") == Clustering::single);
+  CHECK_THROWS_WITH(enum_from_name<Clustering>("clustering", "wards"),
+                    "clustering: 'wards' is none of ward, average, complete, single, kmeans; did you mean 'ward'?");
 }

@@ -43,8 +43,8 @@ TEST_CASE("a selector that picks the telling views clusters perfectly, and table
   std::vector<double> scores(12, 0.0);
   for (std::size_t i = 0; i < 12; i += 2) scores[i] = 1.0;
   const std::vector<EvaluationPipeline> pipelines{{"line_ward", &distances, {.dimension = 1}}};
-  const std::vector<Selector> selectors{top_selector(scene.dataset), random_selector(),
-                                        best_selector("opt_ind", scene.dataset, scores)};
+  const std::vector<Selector> selectors{
+      {"top", top_views(scene.dataset)}, {"rand", {}}, {"opt_ind", best_views(scene.dataset, scores)}};
   const auto table = evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 500}, two, {}, "");
   const auto same = evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 500}, five, {}, "");
   for (std::size_t s = 0; s < 3; ++s)
@@ -67,6 +67,5 @@ TEST_CASE("a pose without scores gets its top view") {
   const Scene scene;
   std::vector<double> scores(12, std::nan(""));
   scores[2] = 0.5;
-  const auto selector = best_selector("svnet", scene.dataset, scores);
-  CHECK(selector.view == std::vector<std::int32_t>{1, 2, 5, 7, 9, 11});
+  CHECK(best_views(scene.dataset, scores) == std::vector<std::int32_t>{1, 2, 5, 7, 9, 11});
 }

@@ -11,7 +11,12 @@
 #include "models/backbone.h"
 #include "predict/predictor.h"
 #include "small_dataset.h"
-#include "train/scores_stage.h"
+#include "train/stages/contact_sheet.h"
+#include "train/stages/dry_run.h"
+#include "train/stages/evaluation.h"
+#include "train/stages/model.h"
+#include "train/stages/predictions.h"
+#include "train/stages/scores.h"
 #include "train/view_inputs.h"
 
 using namespace svnet;
@@ -45,9 +50,39 @@ struct Log {
   }
 };
 
+/// A run and its stages, each with what it needs from the earlier ones.
+class Stages {
+ public:
+  Stages(const Config& config, const ViewDataset& dataset, const std::filesystem::path& folder,
+         const Messages& messages)
+      : run_(make_run(config, dataset, folder, messages)), features_(run_) {}
+
+  const Features& features(const std::string& backbone, const std::string& layer) {
+    return features_.features(backbone, layer);
+  }
+  Scores scores() { return scores_stage(run_, features_); }
+  Model model() {
+    write_config(run_);
+    return model_stage(run_, features_, scores());
+  }
+  std::vector<double> predicted_scores(const Model& model) { return svnet::predicted_scores(run_, features_, model); }
+  EvaluationTables evaluation(std::uint64_t problems) {
+    const std::vector<double> predicted = predicted_scores(trained_model(run_, features_));
+    return evaluation_stage(run_, {features_, scores(), predicted}, problems);
+  }
+  std::optional<std::filesystem::path> contact_sheet(std::uint64_t problems) {
+    const std::vector<double> predicted = predicted_scores(trained_model(run_, features_));
+    return contact_sheet_stage(run_, {features_, scores(), predicted}, problems);
+  }
+
+ private:
+  Run run_;
+  FeaturesStage features_;
+};
+
 /// Trains and evaluates in `folder` and returns the hashes of all results.
 std::vector<std::string> results(const Config& config, const std::filesystem::path& folder, const Messages& messages) {
-  Run run(config, read_view_dataset(config.dataset.root), folder, messages);
+  Stages run(config, read_view_dataset(config.dataset.root), folder, messages);
   run.model();
   run.evaluation(40);
   std::vector<std::string> hashes;
@@ -123,10 +158,10 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.training.fine_tune = GENERATE(Config::Training::FineTune::last_block, Config::Training::FineTune::all);
+  config.training.fine_tune = GENERATE(FineTune::last_block, FineTune::all);
   config.training.epochs = 2;
   config.training.validation_categories = 1;
-  const bool all = config.training.fine_tune == Config::Training::FineTune::all;
+  const bool all = config.training.fine_tune == FineTune::all;
   const int threads_before = Parallel::shared().threads();
   std::vector<std::string> expected;
   for (int threads : {1, 2, 8}) {
@@ -164,14 +199,14 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
 
   // The trained backbone's own features are what evaluation and prediction go by.
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
-  Run run(config, dataset, temporary.path() / "run1", {});
+  Stages run(config, dataset, temporary.path() / "run1", {});
   const std::vector<double> scores = run.predicted_scores(model);
   const Predictor predictor(temporary.path() / "run1/model.safetensors");
   for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose) {
     const Image top =
         read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path);
     for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
-      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      const CameraPose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
       const float predicted = predictor.scores(predictor.embed(top), std::span(&camera, 1))[0];
       CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] == Approx(predicted).epsilon(1e-4));
     }
@@ -184,19 +219,18 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.training.fine_tune = GENERATE(Config::Training::FineTune::none, Config::Training::FineTune::last_block,
-                                       Config::Training::FineTune::all);
+  config.training.fine_tune = GENERATE(FineTune::none, FineTune::last_block, FineTune::all);
   config.training.epochs = 1;
   const auto examples = [&](const std::string& folder) {
     Log log;
-    Run(config, read_view_dataset(config.dataset.root), temporary.path() / folder, log.messages).model();
+    Stages(config, read_view_dataset(config.dataset.root), temporary.path() / folder, log.messages).model();
     for (const auto& line : log.lines)
       if (line.starts_with("SV-net: ")) return std::stoi(line.substr(line.find(", ") + 2));
     return 0;
   };
   const int as_taken = examples("plain");
   CHECK(as_taken > 0);
-  config.training.augmentation = Config::Training::Augmentation::turns;
+  config.training.augmentation = TopViewAugmentation::turns;
   CHECK(examples("plain") == 8 * as_taken);  // and the model of "plain" is not taken for its own
 
   const int threads_before = Parallel::shared().threads();
@@ -214,15 +248,15 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
-  config.sv_net.angles = Config::SvNet::Angles::harmonics;
+  config.sv_net.angles = AngleEncoding::harmonics;
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
-  const Model as_taken = Run(config, dataset, temporary.path() / "run", {}).model();
-  CHECK(as_taken.orientations == 1);
+  const Model as_taken = Stages(config, dataset, temporary.path() / "run", {}).model();
+  CHECK(as_taken.symmetries == 1);
 
-  config.sv_net.orientations = Config::SvNet::Orientations::all;
-  Run run(config, dataset, temporary.path() / "run", {});
+  config.sv_net.orientations = Orientations::all;
+  Stages run(config, dataset, temporary.path() / "run", {});
   const Model model = run.model();
-  CHECK(model.orientations == 8);
+  CHECK(model.symmetries == 8);
   CHECK(model.input_fingerprint != as_taken.input_fingerprint);
   const std::vector<double> scores = run.predicted_scores(model);
   REQUIRE(scores.size() == dataset.views.size());
@@ -232,7 +266,7 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
     const Tensor features = predictor.embed(
         read_image(dataset.root / dataset.views[static_cast<std::size_t>(dataset.poses[pose].top_view)].path));
     for (const View& view : dataset.views_of(static_cast<Index>(pose))) {
-      const Pose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
+      const CameraPose camera{static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)};
       CHECK(scores[static_cast<std::size_t>(&view - dataset.views.data())] ==
             Approx(predictor.scores(features, std::span(&camera, 1))[0]).epsilon(1e-4));
     }
@@ -280,8 +314,8 @@ TEST_CASE("scores leave out held-out categories") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   const Config config = small_config(temporary.path() / "data");
-  Run run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {});
-  const Scores& scores = run.scores();
+  Stages run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {});
+  const Scores scores = run.scores();
   for (std::size_t i = 0; i < scores.paths.size(); ++i) {
     const bool held_out = scores.paths[i].starts_with("ring/");
     CHECK((scores.count[i] == 0) == held_out);
@@ -295,7 +329,7 @@ TEST_CASE("scores go on from the snapshot of an interrupted run") {
   Config config = small_config(temporary.path() / "data");
   config.scores.problems = 5000;
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
-  Run whole(config, dataset, temporary.path() / "whole", {});
+  Stages whole(config, dataset, temporary.path() / "whole", {});
   whole.scores();
 
   struct Stop {};
@@ -305,7 +339,7 @@ TEST_CASE("scores go on from the snapshot of an interrupted run") {
                           }};
   const auto path = temporary.path() / "run/scores.h5";
   Log log;
-  Run run(config, dataset, temporary.path() / "run", log.messages);
+  Stages run(config, dataset, temporary.path() / "run", log.messages);
   CHECK_THROWS_AS(make_scores(path, dataset, whole.features("tiny_xception", ""), {false, false, false, true}, config,
                               stopping, {.snapshot_seconds = 0}),
                   Stop);
@@ -319,7 +353,7 @@ TEST_CASE("scores go on from the snapshot of an interrupted run") {
   }
   SECTION("not of other scores") {
     config.seed = 4;
-    Run(config, dataset, temporary.path() / "run", log.messages).scores();
+    Stages(config, dataset, temporary.path() / "run", log.messages).scores();
     CHECK_FALSE(log.has("resumed"));
   }
   SECTION("not of a damaged one") {
@@ -338,7 +372,7 @@ TEST_CASE("a dry run leaves nothing behind") {
   Log log;
   dry_run(config, read_view_dataset(config.dataset.root), log.messages);
   CHECK(log.has("epoch 1/1"));
-  config.training.fine_tune = Config::Training::FineTune::all;
+  config.training.fine_tune = FineTune::all;
   Log tuned;
   dry_run(config, read_view_dataset(config.dataset.root), tuned.messages);
   CHECK(tuned.has("epoch 1/1"));
@@ -349,7 +383,7 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
-  const auto run = [&] { Run(config, dataset, temporary.path() / "run", {}); };
+  const auto run = [&] { make_run(config, dataset, temporary.path() / "run", {}); };
   config.dataset.held_out = {"rings"};
   CHECK_THROWS_WITH(run(), "dataset.held_out: the dataset has no category 'rings', did you mean 'ring'?");
   config.dataset.held_out = {"ring", "cube", "cone"};
@@ -364,11 +398,11 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   config.sv_net.layer = "block9";
   CHECK_THROWS_WITH(run(), Catch::Contains("no layer 'block9'"));
   config.sv_net.layer = "block4_act";
-  config.training.fine_tune = Config::Training::FineTune::last_block;
+  config.training.fine_tune = FineTune::last_block;
   CHECK_THROWS_WITH(run(),
                     "training.fine_tune: last_block, but sv_net.layer 'block4_act' is not above the input of the last "
                     "block of tiny_xception, which is the output of 'block4_act'");
-  config.training.fine_tune = Config::Training::FineTune::none;
+  config.training.fine_tune = FineTune::none;
   config.sv_net.layer = "";
   config.evaluation.pipelines = {"foo_ward"};
   CHECK_THROWS_WITH(run(), Catch::Contains("there is no backbone 'foo'"));
@@ -383,14 +417,35 @@ TEST_CASE("a contact sheet of held-out objects is written where categories are h
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
   results(config, temporary.path() / "one", {});
-  CHECK_FALSE(Run(config, read_view_dataset(config.dataset.root), temporary.path() / "one", {}).contact_sheet(20));
+  CHECK_FALSE(Stages(config, read_view_dataset(config.dataset.root), temporary.path() / "one", {}).contact_sheet(20));
   CHECK_FALSE(std::filesystem::exists(temporary.path() / "one/views.png"));
   config.dataset.held_out = {"ring", "ball"};
   results(config, temporary.path() / "two", {});
   const auto sheet =
-      Run(config, read_view_dataset(config.dataset.root), temporary.path() / "two", {}).contact_sheet(20);
+      Stages(config, read_view_dataset(config.dataset.root), temporary.path() / "two", {}).contact_sheet(20);
   REQUIRE(sheet == temporary.path() / "two/views.png");
   CHECK(read_image(*sheet).width == 20 + 2 * (3 * 116 + 20));
+}
+
+TEST_CASE("the tables have the selectors that the configuration names, else those of their categories") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.dataset.held_out = {"ring", "ball"};
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  Stages trained(config, dataset, temporary.path() / "run", {});
+  trained.model();
+  const auto selectors_of = [&](const std::string& split) {
+    return Stages(config, dataset, temporary.path() / "run", {}).evaluation(20).at(split).selectors;
+  };
+  CHECK(selectors_of("training") == std::vector<std::string>{"top", "rand", "opt_glob", "opt_ind"});
+  CHECK(selectors_of("held_out") == std::vector<std::string>{"top", "rand", "svnet"});
+  config.evaluation.selectors = {"opt_ind", "svnet"};
+  CHECK(selectors_of("training") == config.evaluation.selectors);
+  CHECK(selectors_of("held_out") == config.evaluation.selectors);
+  config.evaluation.selectors = {"opt_int"};
+  CHECK_THROWS_WITH(selectors_of("training"),
+                    "evaluation.selectors: there is no selector 'opt_int', did you mean 'opt_ind'?");
 }
 
 TEST_CASE("weights come from the folder, else are built in, else are random") {
@@ -415,7 +470,7 @@ TEST_CASE("evaluating never trains") {
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
   const auto evaluate = [&] {
-    Run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {}).evaluation(10);
+    Stages(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {}).evaluation(10);
   };
   CHECK_THROWS_WITH(evaluate(),
                     (temporary.path() / "run").string() + ": holds no trained model; run svnet-train first");

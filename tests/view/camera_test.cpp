@@ -12,7 +12,7 @@ namespace {
 
 struct Case {
   Intrinsics camera;
-  Pose pose;
+  CameraPose pose;
   Vector3d centre_m;
   double diagonal_m;
 };
@@ -39,8 +39,8 @@ TEST_CASE("500 camera poses are rotations that look at the centre, level, from t
     const auto [camera, pose, centre, diagonal] = random_case(number);
     INFO("case " << number << ": theta " << pose.theta_deg << ", phi " << pose.phi_deg);
     const double radius = viewing_radius_m(camera, diagonal);
-    const auto paper = camera_pose(pose, radius, centre, CameraFrame::paper);
-    const auto optical = camera_pose(pose, radius, centre, CameraFrame::optical);
+    const auto paper = look_at(pose, radius, centre, CameraFrame::paper);
+    const auto optical = look_at(pose, radius, centre, CameraFrame::optical);
     for (const auto& frame : {paper, optical}) {
       const Eigen::Matrix3d rotation = frame.linear();
       CHECK((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < 1e-12);
@@ -78,7 +78,7 @@ TEST_CASE("with square pixels the radius is the paper's f d / (0.7 min(w, h))") 
 
 TEST_CASE("at the zeros of the angles the axes are those of the documentation") {
   const auto pose = [](double theta, double phi, CameraFrame frame) {
-    return camera_pose({theta, phi}, 2, {1, 1, 1}, frame);
+    return look_at({theta, phi}, 2, {1, 1, 1}, frame);
   };
   const auto side = pose(0, 0, CameraFrame::paper);  // on the x axis, level with the centre
   CHECK(side.translation().isApprox(Vector3d(3, 1, 1)));
@@ -117,12 +117,11 @@ TEST_CASE("cameras and poses that cannot be are refused") {
   CHECK(intrinsics_problem(bad) == "cx is nan, which is outside the picture of 640 pixels");
   CHECK_THROWS_WITH(viewing_radius_m(bad, 1), "[view] cx is nan, which is outside the picture of 640 pixels");
   CHECK_THROWS_WITH(viewing_radius_m(good, 0), "[view] the object's diagonal is 0 m, expected a positive length");
-  CHECK_THROWS_WITH(camera_pose({0, 91}, 1, Vector3d::Zero(), CameraFrame::paper),
+  CHECK_THROWS_WITH(look_at({0, 91}, 1, Vector3d::Zero(), CameraFrame::paper),
                     "[view] phi 91 is outside [0, 90] degrees");
-  CHECK_THROWS_WITH(camera_pose({0, 45}, -1, Vector3d::Zero(), CameraFrame::paper),
+  CHECK_THROWS_WITH(look_at({0, 45}, -1, Vector3d::Zero(), CameraFrame::paper),
                     "[view] the radius is -1 m, expected a positive length");
-  CHECK_THROWS_WITH(camera_pose({0, 45}, 1, {0, 0, std::nan("")}, CameraFrame::paper),
-                    Catch::Contains("is not finite"));
+  CHECK_THROWS_WITH(look_at({0, 45}, 1, {0, 0, std::nan("")}, CameraFrame::paper), Catch::Contains("is not finite"));
   CHECK_THROWS_WITH(camera_frame_named("ros"), "the camera frame 'ros' is not known; known: paper, optical");
   CHECK(camera_frame_named(name_of(CameraFrame::optical)) == CameraFrame::optical);
 }

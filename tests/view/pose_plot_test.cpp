@@ -6,7 +6,7 @@
 using namespace svnet;
 
 TEST_CASE("poses that can be reached are filled, others are empty") {
-  const std::vector<Pose> poses{{0, 45}, {90, 45}};
+  const std::vector<CameraPose> poses{{0, 45}, {90, 45}};
   const Image image = pose_plot(poses, {true, false});
   REQUIRE(image.height == 512);
   const auto pixel = [&](Index x, Index y) {

@@ -28,9 +28,10 @@ void flush_results() {
 Command::Command(std::string name, const std::string& description, const std::string& example)
     : name_(std::move(name)), app_(description, name_) {
   app_.formatter(std::make_shared<HelpText>());
-  app_.fallthrough();  // subcommands take the options below as well
+  app_.fallthrough();  // subcommands accept the options below too
   app_.set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
-  app_.add_option("--threads", threads_, "Number of threads (default: SVNET_THREADS, or all CPUs it may use)")
+  app_.add_option("--threads", threads_,
+                  "Number of threads (default: SVNET_THREADS, or all CPUs that the process may use)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
   app_.add_flag("--quiet", quiet_, "Print results and errors only");
@@ -46,7 +47,7 @@ Command::Command(std::string name, const std::string& description, const std::st
 CLI::Option* Command::add_precision() {
   return app_
       .add_option("--precision", precision_,
-                  "Products of the network in f32, or faster of numbers rounded to bf16, where the processor has "
+                  "Precision of the network's products. bf16 is faster and less exact; it needs a processor with "
                   "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
       ->check(CLI::IsMember({"f32", "bf16"}))
       ->type_name("f32|bf16");
@@ -54,15 +55,15 @@ CLI::Option* Command::add_precision() {
 
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Communicator& communicator) {
   cap_openblas_from_environment(argv);
-  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error to report, not the end of the process
+  std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit fails with EFBIG; it does not kill the process
   try {
     app_.parse(argc, argv);
   } catch (const CLI::ParseError& answer) {
     return parsed(answer, communicator);
   }
-  Console console(
-      communicator.is_root() ? (quiet_ ? Console::Voice::quiet : Console::Voice::full) : Console::Voice::mute,
-      stderr_is_terminal());
+  Console console(communicator.is_root() ? (quiet_ ? Console::Verbosity::quiet : Console::Verbosity::normal)
+                                         : Console::Verbosity::errors_only,
+                  stderr_is_terminal());
   try {
     remember_interrupts();
     cap_from_environment();
@@ -73,7 +74,7 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     flush_results();
     return 0;
   } catch (const Interrupted&) {
-    if (communicator.size() > 1) return 130;  // by the launcher, which says why
+    if (communicator.size() > 1) return 130;  // the launcher interrupted all processes and says so
     return report(console, "interrupted", 130, communicator);
   } catch (const UsageError& e) {
     return report(console, usage_text(e.what()), 2, communicator);
@@ -87,7 +88,7 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
 }
 
 int Command::parsed(const CLI::ParseError& answer, const Communicator& communicator) {
-  Console console(Console::Voice::full, stderr_is_terminal());
+  Console console(Console::Verbosity::normal, stderr_is_terminal());
   if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, communicator);
   if (!communicator.is_root()) return 0;
   app_.exit(answer, std::cout, std::cerr);
@@ -103,7 +104,7 @@ std::string Command::usage_text(const std::string& message) const { return messa
 
 int Command::report(Console& console, const std::string& message, int status, const Communicator& communicator) const {
   const timespec second{1, 0};
-  if (!communicator.is_root() && ::nanosleep(&second, nullptr) != 0) return status;  // ended by a signal
+  if (!communicator.is_root() && ::nanosleep(&second, nullptr) != 0) return status;  // a signal ended the wait
   console.error(name_ + ": " + message);
   return status;
 }

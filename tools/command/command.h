@@ -9,7 +9,7 @@
 
 namespace svnet {
 
-/// What a program's own arguments have wrong that CLI11 cannot see: exit 2. Throw it with wrong_usage.
+/// A mistake in the arguments that CLI11 cannot see. The program exits with status 2. Thrown through wrong_usage.
 class UsageError : public Error {
  public:
   using Error::Error;
@@ -20,8 +20,8 @@ template <class... Parts>
   throw UsageError(joined(parts...));
 }
 
-/// The frame of a program: its arguments, --help, --version, --threads and --quiet, signals, and the one place that
-/// catches.
+/// What all programs share: the options --help, --version, --threads and --quiet, signals, exit statuses, and the only
+/// place that catches exceptions.
 ///
 ///     int main(int argc, char** argv) {
 ///       Command command("svnet-info", "Says what a file contains.", "svnet-info model.safetensors");
@@ -31,19 +31,23 @@ template <class... Parts>
 ///     }
 class Command {
  public:
-  /// `example`: one or more command lines that --help shows.
+  /// `example`: command lines for --help, separated by line breaks.
   Command(std::string name, const std::string& description, const std::string& example);
 
-  /// To add the program's arguments to.
+  /// The program adds its own arguments here.
   CLI::App& app() { return app_; }
 
-  /// Adds --precision, which stands for SVNET_PRECISION: for programs that run networks of a backbone.
+  /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone.
   CLI::Option* add_precision();
 
-  /// Parses, runs `body` and returns the exit status: 0 done, 1 failed (one line on stderr: what, where, what to do),
-  /// 2 wrong usage, 130 interrupted. SVNET_MAX_ISA, --threads and --precision are in force when the body runs.
-  /// Of a communicator only the first process speaks. Others wait a second with an error: where the first one failed as
-  /// well, it ends them before.
+  /// Parses the arguments and runs `body`. SVNET_MAX_ISA, --threads and --precision are in force while it runs.
+  ///
+  /// Returns the exit status: 0 done, 1 failed (one line on stderr says what, where and what to do), 2 wrong usage,
+  /// 130 interrupted.
+  ///
+  /// In a communicator only the root process prints results and progress. If another process fails, it waits one second
+  /// before it prints its error: if the root process fails too, it ends all processes in that second, and the error
+  /// appears once.
   int run(int argc, char** argv, const std::function<void(Console&)>& body,
           const Communicator& communicator = SingleProcess::shared());
 

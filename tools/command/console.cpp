@@ -4,8 +4,6 @@
 #include <cstdlib>
 #include <iostream>
 
-#include <spdlog/details/log_msg.h>
-#include <spdlog/sinks/basic_file_sink.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
@@ -23,22 +21,7 @@ int terminal_columns() {
 
 }  // namespace
 
-class Console::LogFile {
- public:
-  explicit LogFile(const std::filesystem::path& file) : sink_(file.string()) {
-    sink_.set_pattern("%Y-%m-%d %H:%M:%S %v");
-  }
-
-  void write(std::string_view text) {
-    sink_.log({"", spdlog::level::info, spdlog::string_view_t(text.data(), text.size())});
-    sink_.flush();
-  }
-
- private:
-  spdlog::sinks::basic_file_sink_st sink_;
-};
-
-Console::Console(Voice voice, bool terminal) : voice_(voice), terminal_(terminal) {
+Console::Console(Verbosity verbosity, bool terminal) : verbosity_(verbosity), terminal_(terminal) {
   messages_.line = [this](std::string_view text) { line(text); };
   messages_.progress = [this](std::string_view task, Index done, Index total, double seconds) {
     throw_if_interrupted();
@@ -51,10 +34,10 @@ Console::~Console() { erase_bar(); }
 void Console::line(std::string_view text) { print(printable(text)); }
 
 void Console::result(std::string_view text) {
-  if (voice_ == Voice::mute) return;
+  if (verbosity_ == Verbosity::errors_only) return;
   erase_bar();
   std::size_t start = 0, end;
-  do {  // line by line: a result may have many
+  do {  // line by line, because printable replaces line breaks
     end = std::min(text.find('\n', start), text.size());
     std::cout << printable(text.substr(start, end - start)) << '\n';
     start = end + 1;
@@ -67,24 +50,20 @@ void Console::error(std::string_view text) {
   std::cerr << clean << std::endl;
   try {
     if (log_file_) log_file_->write(clean);
-  } catch (const spdlog::spdlog_ex&) {
-    log_file_.reset();  // the error itself may be that the disk is full
+  } catch (const Error&) {
+    log_file_.reset();  // `text` may be the message that the disk is full
   }
 }
 
 void Console::log_to(const std::filesystem::path& file) {
-  if (voice_ == Voice::mute) return;
+  if (verbosity_ == Verbosity::errors_only) return;
   const std::filesystem::path folder = file.parent_path();
   std::error_code error;
   if (!folder.empty()) std::filesystem::create_directories(folder, error);
   check(!error, folder.string(),
         std::filesystem::exists(folder) ? ": is not a folder; give the name of one"
                                         : joined(": cannot make this folder: ", error.message()));
-  try {
-    log_file_ = std::make_unique<LogFile>(file);
-  } catch (const spdlog::spdlog_ex&) {
-    fail(file.string(), ": cannot open the log file, check that its folder can be written to");
-  }
+  log_file_.emplace(file);
 }
 
 void Console::end_task() {
@@ -100,7 +79,7 @@ void Console::progress(TaskState state) {
   if (!task_) last_plain_ = now;
   task_ = std::move(state);
   if (task_->finished()) return end_task();
-  if (terminal_ && voice_ == Voice::full) {
+  if (terminal_ && verbosity_ == Verbosity::normal) {
     std::cerr << '\r' << progress_bar(*task_, terminal_columns()) << "\x1b[K" << std::flush;
     bar_drawn_ = true;
   }
@@ -112,7 +91,7 @@ void Console::progress(TaskState state) {
 }
 
 void Console::print(std::string_view text) {
-  if (voice_ == Voice::full) {
+  if (verbosity_ == Verbosity::normal) {
     erase_bar();
     std::cerr << text << std::endl;
   }

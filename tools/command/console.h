@@ -1,61 +1,61 @@
 #pragma once
 #include <chrono>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string_view>
 
 #include "base/progress.h"
+#include "command/log_file.h"
 #include "command/progress_text.h"
 
 namespace svnet {
 
-/// Where a command speaks: results on stdout; lines and progress on stderr, as a bar that is redrawn on a terminal, as
-/// timed lines without control characters elsewhere (at most one in ten seconds, and one at a task's end). Quiet leaves
-/// results and errors, mute leaves errors and writes no log file. A log file gets every line with its time. One thread
-/// at a time.
+/// The output of a command. Results go to stdout; messages, progress and errors go to stderr. On a terminal, progress
+/// is a bar that is redrawn. Elsewhere it is plain lines without control characters: at most one every ten seconds, and
+/// one at the end of a task. The log file, if any, receives every line, progress and error with its time; no results.
+/// Not thread-safe.
 class Console {
  public:
-  enum class Voice { full, quiet, mute };
-  /// `terminal`: stderr is a terminal that understands ANSI.
-  Console(Voice voice, bool terminal);
+  /// What is printed. normal: everything. quiet: results and errors. errors_only: errors, and no log file is written.
+  enum class Verbosity { normal, quiet, errors_only };
+  /// `terminal`: whether stderr is a terminal that understands ANSI sequences.
+  Console(Verbosity verbosity, bool terminal);
   ~Console();
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
-  /// What the library's functions take; valid as long as the console. Reporting progress throws Interrupted after
-  /// SIGINT or SIGTERM.
+  /// The callbacks that functions of the library take. They are valid while the console exists. The one for progress
+  /// throws Interrupted after SIGINT, SIGTERM or SIGHUP.
   const Messages& messages() const { return messages_; }
 
-  /// One line of the log.
+  /// Prints a message of one line.
   void line(std::string_view text);
-  /// Lines of text on stdout, the last one with its end too.
+  /// Prints one or more lines on stdout. Adds the last line break if it is missing.
   void result(std::string_view text);
-  /// One line on stderr, quiet or not.
+  /// Prints an error of one line on stderr, at every verbosity.
   void error(std::string_view text);
-  /// From now on lines are appended to `file` too; its folder is made.
+  /// Appends all later lines to `file` too. Creates its folder. Throws Error if that fails.
   void log_to(const std::filesystem::path& file);
-  /// Says where the task in progress ended, if one is.
+  /// Prints the last line of the task in progress, if there is one.
   void end_task();
 
  private:
   using Clock = std::chrono::steady_clock;
-  class LogFile;
 
   void progress(TaskState state);
   void print(std::string_view text);
   void erase_bar();
 
-  Voice voice_;
+  Verbosity verbosity_;
   bool terminal_;
   bool bar_drawn_ = false;
-  std::optional<TaskState> task_;  ///< in progress
+  std::optional<TaskState> task_;  // in progress
   Clock::time_point last_plain_;
-  std::unique_ptr<LogFile> log_file_;
+  std::optional<LogFile> log_file_;
   Messages messages_;
 };
 
-/// Whether stderr is a terminal that understands ANSI.
+/// Whether stderr is a terminal that understands ANSI sequences.
 bool stderr_is_terminal();
 
 }  // namespace svnet

@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kColumns = 80, kNameColumns = 30;
 
-/// Lines of whole words, none longer than `columns` unless a word is.
+/// Wraps text between words. A line exceeds `columns` only if one word does.
 std::string wrapped(const std::string& text, std::size_t columns) {
   std::istringstream words(text);
   std::string result, word;
@@ -21,7 +21,7 @@ std::string wrapped(const std::string& text, std::size_t columns) {
   return result;
 }
 
-/// CLI11 says "INT:INT in [1 - 1024]" and "TEXT:{zero,skip}".
+/// The name of a value. CLI11's types are such as "INT:INT in [1 - 1024]" and "TEXT:{zero,skip}".
 std::string value_name(const std::string& type) {
   const auto colon = type.find(':');
   if (colon != std::string::npos && type.compare(colon + 1, 1, "{") == 0) return type.substr(colon + 1);

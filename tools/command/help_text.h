@@ -3,8 +3,8 @@
 
 namespace svnet {
 
-/// How --help reads: no line longer than 80 columns, values by their names and choices rather than by their C++ types,
-/// "(required)" where an option is.
+/// The format of --help: at most 80 columns; a value is shown by its name or choices, not by its C++ type; required
+/// options are marked "(required)".
 class HelpText : public CLI::Formatter {
  public:
   HelpText();

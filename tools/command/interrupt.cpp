@@ -9,7 +9,7 @@ constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 volatile std::sig_atomic_t interrupted = 0;
 
-/// No SA_RESTART: a call that waits for a pipe or a terminal returns.
+/// Without SA_RESTART, so that a call that waits for a pipe or a terminal returns.
 void handle(int number, void (*handler)(int)) {
   struct sigaction action {};
   action.sa_handler = handler;
@@ -28,7 +28,8 @@ void remember_interrupts() {
   for (const int number : kSignals) {
     struct sigaction before {};
     ::sigaction(number, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) handle(number, remember);  // nohup, and a script's background jobs, ignore some
+    if (before.sa_handler != SIG_IGN)
+      handle(number, remember);  // nohup ignores SIGHUP; background jobs of scripts ignore SIGINT
   }
 }
 

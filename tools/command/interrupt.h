@@ -2,15 +2,15 @@
 
 namespace svnet {
 
-/// Thrown in the thread that works after SIGINT, SIGTERM or SIGHUP, so that destructors remove what is half written.
-/// Not a std::exception: nothing on the way may take it for a failure and carry on, or dress it up as one.
+/// Thrown in the working thread after SIGINT, SIGTERM or SIGHUP, so that destructors remove incomplete files. It is not
+/// a std::exception, so that no handler for failures catches it.
 struct Interrupted {};
 
-/// From now on the first of these signals is only remembered; the second one ends the process at once. Those that the
-/// process was started to ignore it goes on ignoring.
+/// From now on the first of these signals is only remembered, and the second one ends the process at once. A signal
+/// that was ignored when the process started stays ignored.
 void remember_interrupts();
 
-/// Throws Interrupted where a signal has come.
+/// Throws Interrupted if a signal has been remembered.
 void throw_if_interrupted();
 
 }  // namespace svnet

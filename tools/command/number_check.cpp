@@ -9,7 +9,7 @@
 namespace svnet {
 namespace {
 
-/// `expected` follows "must be".
+/// `expected`: the words after "must be" in the message.
 CLI::Validator number_check(const std::string& expected, const std::function<bool(double)>& holds) {
   return {[=](std::string& text) -> std::string {
             double number = 0;

@@ -3,12 +3,12 @@
 
 namespace svnet {
 
-// Checks of options that are real numbers, for CLI::Option::check. CLI11's own let NaN pass, and spell out the largest
-// double where a range has no upper end. None of these takes NaN or an infinity.
+// Checks of floating-point options, for CLI::Option::check. They refuse NaN and infinities. CLI11's own checks accept
+// NaN and print the largest double if a range has no upper end.
 
 CLI::Validator positive_number();
 CLI::Validator non_negative_number();
-/// Both ends belong to it.
+/// In [low, high].
 CLI::Validator number_between(double low, double high);
 
 }  // namespace svnet

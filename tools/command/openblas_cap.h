@@ -2,9 +2,9 @@
 
 namespace svnet {
 
-/// OpenBLAS, which multiplies the matrices of the training, chooses its kernels when it is loaded, by the processor or
-/// by OPENBLAS_CORETYPE. Where SVNET_MAX_ISA is set and the latter is not, sets it to kernels that keep to the same
-/// instruction set and starts the program again, before it has done anything. Returns where nothing is to be changed.
+/// Makes OpenBLAS respect SVNET_MAX_ISA. OpenBLAS chooses its kernels when it is loaded: by OPENBLAS_CORETYPE, or else
+/// by the processor. If SVNET_MAX_ISA is set and OPENBLAS_CORETYPE is not, this function sets OPENBLAS_CORETYPE and
+/// starts the program again. Otherwise it returns. Requires: the program has done nothing yet.
 void cap_openblas_from_environment(char** argv);
 
 }  // namespace svnet

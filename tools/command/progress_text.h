@@ -6,7 +6,7 @@
 
 namespace svnet {
 
-/// How far a task is: `done` of `total` steps after `seconds`; total 0 where it is unknown.
+/// `done` of `total` steps of a task after `seconds`. total 0: unknown.
 struct TaskState {
   std::string task;
   Index done = 0, total = 0;
@@ -21,10 +21,10 @@ std::string duration_text(double seconds);
 /// "scores: 58 %, 830/1440, 122/s, 5.0 s left"
 std::string plain_progress(const TaskState& state);
 
-/// "scores: 1440 in 11.8 s", or what was reached of a task that did not end.
+/// "scores: 1440 in 11.8 s", or "scores: 830 of 1440 in 6.8 s" if the task stopped early.
 std::string final_progress(const TaskState& state);
 
-/// The same with a bar, cut to less than `columns`: "scores  [######----]  58 %, 830/1440, …"
+/// plain_progress with a bar, shorter than `columns`: "scores  [######----]  58 %, 830/1440, …"
 std::string progress_bar(const TaskState& state, int columns);
 
 }  // namespace svnet

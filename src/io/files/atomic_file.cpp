@@ -11,7 +11,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
-#include "temporary_name.h"
+#include "io/files/temporary_name.h"
 
 namespace svnet {
 namespace {
@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
   fail(path.string(), ": cannot be written: ", std::generic_category().message(error));
 }
 
-/// fsync, begun again where a signal has interrupted it.
+/// fsync, repeated if a signal interrupts it.
 int synced(int descriptor) {
   int result;
   do result = ::fsync(descriptor);
@@ -46,7 +46,7 @@ class Descriptor {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-/// Where a write to `path` goes: the end of a chain of symbolic links.
+/// The end of a chain of symbolic links.
 fs::path followed(const fs::path& path) {
   constexpr int kMostLinks = 40;  // as Linux allows
   fs::path target = path;
@@ -60,8 +60,8 @@ fs::path followed(const fs::path& path) {
   return target;
 }
 
-/// The file that a write to `path` replaces. Devices and folders would be lost, or fail only after the work: they are
-/// refused first.
+/// The file that a write to `path` replaces. Throws Error for devices and folders, which a rename would replace or fail
+/// to replace.
 fs::path checked_target(const fs::path& path) {
   check(path.has_filename(), "'", path.string(), "': not the name of a file; give one that can be written");
   std::error_code error;
@@ -76,7 +76,7 @@ fs::path checked_target(const fs::path& path) {
   return target;
 }
 
-/// Whether both are one file, which need not exist yet.
+/// Whether both paths name one file, which need not exist.
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
   const bool exists = fs::exists(a, error);
@@ -84,7 +84,7 @@ bool same_file(const fs::path& a, const fs::path& b) {
   return exists ? fs::equivalent(a, b, error) : fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
 }
 
-/// The process that made the temporary, 0 where the name is not one of the target's.
+/// The process that made a temporary file of the target, from the file's name; 0 for any other name.
 pid_t maker_of(const std::string& name, const std::string& prefix) {
   unsigned pid = 0, counter = 0;
   int length = 0;
@@ -94,7 +94,7 @@ pid_t maker_of(const std::string& name, const std::string& prefix) {
   return static_cast<pid_t>(pid);
 }
 
-/// Removes what processes that were killed while they wrote the target have left.
+/// Removes the temporary files of processes that were killed while they wrote the target.
 void remove_stale_temporaries(const fs::path& target) {
   const std::string prefix = temporary_prefix(target);
   std::error_code error;
@@ -104,7 +104,7 @@ void remove_stale_temporaries(const fs::path& target) {
   }
 }
 
-/// A file of ours beside the target that is removed unless it was renamed away.
+/// A new file beside the target. It is removed unless it was renamed to the target.
 class Temporary {
  public:
   explicit Temporary(const fs::path& target) {

@@ -4,7 +4,8 @@
 
 namespace svnet {
 
-/// SHA-256 of the contents of a file, 64 lower-case hexadecimal digits. Throws Error that names the file.
+/// The SHA-256 of a file's contents as 64 lower-case hexadecimal digits. Throws Error that names the file if it cannot
+/// be read.
 std::string file_sha256(const std::filesystem::path& path);
 
 }  // namespace svnet

@@ -9,14 +9,14 @@
 
 #include "base/error.h"
 #include "io/files/atomic_file.h"
-#include "temporary_name.h"
+#include "io/files/temporary_name.h"
 
 namespace svnet {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// The folder that `name` leads to, where nothing is yet, or an empty folder.
+/// The folder that `name` stands for, links followed. Throws Error unless it does not exist or is empty.
 fs::path target_of(const fs::path& name) {
   check(!name.empty(), "'': not the name of a folder; give one that can be made");
   std::error_code error;
@@ -44,7 +44,7 @@ fs::path folder_beside(const fs::path& target, const fs::path& name) {
   fail(name.string(), ": cannot be made: ", error.message());
 }
 
-/// rename() puts a folder only where nothing is, or an empty one.
+/// Renames `folder` to `target`, which must not exist or be an empty folder. Errors call it `name`.
 void give_name(const fs::path& folder, const fs::path& target, const fs::path& name) {
   std::error_code error;
   fs::rename(folder, target, error);
@@ -55,8 +55,8 @@ void give_name(const fs::path& folder, const fs::path& target, const fs::path& n
   check(!error, name.string(), ": cannot be made: ", error.message());
 }
 
-/// A folder to fill that give_name will take. An empty folder that is there already makes place for a new one at once:
-/// what the system refuses to replace is found out before the work.
+/// A new folder that give_name can rename to `target`. If the target exists, a first folder is renamed to it right
+/// away, so that a target that the system refuses to replace is found before the work.
 fs::path partial_of(const fs::path& target, const fs::path& name) {
   fs::path folder = folder_beside(target, name);
   if (!fs::exists(target)) return folder;

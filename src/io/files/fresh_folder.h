@@ -3,21 +3,21 @@
 
 namespace svnet {
 
-/// A folder that is filled under another name and appears as a whole, or is removed. The other name begins with a dot,
-/// lies beside the folder and belongs to this object alone: whatever else is there is left as it is, and of several
-/// that make the same folder the first to finish has it. A process that is killed leaves its part behind.
+/// A new folder that appears as a whole. It is filled under a temporary name (in the same parent folder, beginning with
+/// a dot) and renamed by keep(); without keep() the destructor removes it. Several objects may make the same folder:
+/// the first keep() succeeds, the others throw. A process that is killed leaves its temporary folder.
 class FreshFolder {
  public:
-  /// A link leads to the folder that it names; folders above are made. Throws Error where keep() could not give the
-  /// folder its name: `path` exists and is not an empty folder, is where the process runs, or is a mount point.
+  /// Creates the temporary folder and the parents of `path`; a symbolic link is followed. Throws Error if `path` exists
+  /// and is not an empty folder, is the working directory, or is a mount point.
   explicit FreshFolder(const std::filesystem::path& path);
   ~FreshFolder();
   FreshFolder(const FreshFolder&) = delete;
   FreshFolder& operator=(const FreshFolder&) = delete;
 
-  /// Where to write until keep().
+  /// The temporary folder: files are written here.
   const std::filesystem::path& path() const { return partial_; }
-  /// Gives the folder its name. Throws Error where something has come to be there meanwhile.
+  /// Renames the temporary folder to its final path. Throws Error if something else has taken that path.
   void keep();
 
  private:

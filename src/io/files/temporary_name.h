@@ -4,8 +4,8 @@
 
 namespace svnet {
 
-/// What the names of a file's or folder's temporaries begin with, which lie beside it; PID-N.tmp follows. The target's
-/// name is cut so that they are not longer than file systems allow.
+/// The start of the names of the temporary files or folders of `target`; PID-N.tmp follows. At most 200 bytes of the
+/// target's name are used, because file systems limit the length of names.
 inline std::string temporary_prefix(const std::filesystem::path& target) {
   return ".svnet-" + target.filename().string().substr(0, 200) + "-";
 }

@@ -7,8 +7,8 @@
 
 namespace svnet::hdf5 {
 
-/// Bytes of a file that are read from front to back. What goes beyond their end throws Error with `message`, which must
-/// outlive this.
+/// Reads bytes of a file from front to back. Throws Error with `message` when a read would pass the end. `message` must
+/// outlive this object.
 class Bytes {
  public:
   Bytes(std::span<const char> bytes, std::string_view message) : bytes_(bytes), message_(message) {}
@@ -16,7 +16,7 @@ class Bytes {
   std::uint64_t size() const { return bytes_.size(); }
   [[noreturn]] void refuse() const { fail(message_); }
 
-  /// Little endian, of 1 to 8 bytes.
+  /// The next `size` bytes (1 to 8) as a little-endian number.
   std::uint64_t number(std::uint64_t size) {
     std::uint64_t value = 0;
     const std::span<const char> digits = take(size);

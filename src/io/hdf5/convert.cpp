@@ -1,12 +1,12 @@
-#include "convert.h"
+#include "io/hdf5/convert.h"
 
 #include <algorithm>
 #include <type_traits>
 #include <utility>
 
 #include "base/text.h"
-#include "datatype.h"
-#include "global_heap.h"
+#include "io/hdf5/datatype.h"
+#include "io/hdf5/global_heap.h"
 
 namespace svnet::hdf5 {
 namespace {
@@ -26,7 +26,8 @@ std::vector<T> read_as(const File& file, const std::string& where, std::uint64_t
   return values;
 }
 
-/// For integers whose sign differs between file and memory: the library would clip what does not fit.
+/// Converts between signed and unsigned integers. Throws Error for a value that does not fit (the HDF5 library would
+/// clip it).
 template <class To, class From>
 std::vector<To> changed_sign(const File& file, const std::string& where, const std::vector<From>& values) {
   for (const From value : values)

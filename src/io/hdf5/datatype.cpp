@@ -1,9 +1,9 @@
-#include "datatype.h"
+#include "io/hdf5/datatype.h"
 
 #include <array>
 
 #include "base/error.h"
-#include "handle.h"
+#include "io/hdf5/handle.h"
 
 namespace svnet::hdf5 {
 namespace {

@@ -1,4 +1,4 @@
-#include "error_stack.h"
+#include "io/hdf5/error_stack.h"
 
 #include "base/text.h"
 
@@ -10,8 +10,8 @@ herr_t keep_first(unsigned number, const H5E_error2_t* error, void* text) {
   return 0;
 }
 
-/// Of "file write failed: time = …, filename = …, errno = 28, error message = 'No space left on device', …" the
-/// message.
+/// "No space left on device" of "file write failed: …, errno = 28, error message = 'No space left on device', …"; any
+/// other text unchanged.
 std::string system_message(const std::string& text) {
   const std::string start = "error message = '";
   const auto begin = text.find(start);

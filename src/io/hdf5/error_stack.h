@@ -5,7 +5,7 @@
 
 namespace svnet::hdf5 {
 
-/// While one lives, the HDF5 library prints no errors from this thread.
+/// Keeps the HDF5 library from printing errors of this thread, for the lifetime of the object.
 class Quiet {
  public:
   Quiet() {
@@ -21,8 +21,8 @@ class Quiet {
   void* data_ = nullptr;
 };
 
-/// The innermost message of the call that failed last, where the system refused something what the system said. Ask at
-/// once: the next call of the library, even one that closes something, forgets it.
+/// Why the last call of the HDF5 library failed: its innermost message, or that of the operating system. To be called
+/// at once, because the next call of the library clears the message.
 std::string reason();
 
 }  // namespace svnet::hdf5

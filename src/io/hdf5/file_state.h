@@ -5,17 +5,17 @@
 
 #include "base/error.h"
 #include "base/index.h"
-#include "error_stack.h"
-#include "handle.h"
+#include "io/hdf5/error_stack.h"
+#include "io/hdf5/handle.h"
 
 namespace svnet::hdf5 {
 
-/// No dataset or attribute may need more memory than this.
+/// The largest memory that a dataset or attribute may need.
 inline constexpr std::uint64_t kLargestBytes = std::uint64_t{1} << 36;
 /// Deflate compresses at most 1032 to 1 (zlib's technical details).
 inline constexpr std::uint64_t kLargestCompression = 1040;
 
-/// Where, for messages: "'a/b'", "attribute 'x' of 'a/b'".
+/// The place of an object or attribute, for messages: "'a/b'", "attribute 'x' of 'a/b'".
 std::string object_place(const std::string& object);
 std::string attribute_place(const std::string& object, const std::string& name);
 
@@ -27,12 +27,12 @@ struct Extent {
   std::uint64_t count = 1;  // the product of the shape
 };
 
-/// An open file: what the functions of Hdf5File share. They hold a Quiet while they run.
+/// An open file, shared by the functions of Hdf5File. Its caller must hold a Quiet.
 struct File {
   std::string name;        // in messages
   std::uint64_t size = 0;  // in bytes, of a file that is read
   int descriptor = -1;     // of a file that is read
-  std::uint64_t base = 0;  // where addresses count from: a file may begin with a block that is not HDF5's
+  std::uint64_t base = 0;  // the address 0 of HDF5: a file may begin with a user block
   Handle file;             // last: closed first
 
   /// Throws "FILE: WHERE: parts".
@@ -40,22 +40,22 @@ struct File {
   [[noreturn]] void fail_at(const std::string& where, const Parts&... parts) const {
     fail(name, ": ", where, ": ", parts...);
   }
-  /// Passes on what an HDF5 call returned; if it failed, throws what could not be done and why.
+  /// Returns the result of an HDF5 call. Throws Error with `what` and the library's reason if the call failed.
   template <class Result>
   Result done(Result result, const std::string& where, const char* what) const {
     if (result < 0) fail_at(where, what, ": ", reason());
     return result;
   }
 
-  /// Finds out descriptor and base of a file that was opened for reading.
+  /// Sets descriptor and base of a file that was opened for reading.
   void look_up_layout();
-  /// Bytes of a file that is read, as they lie there.
+  /// The raw bytes at an address of a file that is read.
   std::vector<char> bytes(std::uint64_t address, std::uint64_t count, const std::string& where) const;
 
-  /// Follows hard links from the root; fails if a part of the path is missing or a link of another kind.
+  /// Follows hard links from the root. Throws Error if a part of the path is missing or a link of another kind.
   Handle object(const std::string& path) const;
   Handle group(const std::string& path) const;
-  /// A dataset that may be read: its values lie in this file, behind known filters, as many as it declares.
+  /// A dataset that is safe to read. Throws Error unless all its values are stored in this file, with known filters.
   Handle dataset(const std::string& path) const;
   Handle attribute(const std::string& object, const std::string& attribute_name) const;
   Extent extent(hid_t space, const std::string& where) const;

@@ -1,10 +1,10 @@
-#include "global_heap.h"
+#include "io/hdf5/global_heap.h"
 
 #include <algorithm>
 #include <cstring>
 #include <mutex>
 
-#include "bytes.h"
+#include "io/hdf5/bytes.h"
 
 namespace svnet::hdf5 {
 namespace {

@@ -24,7 +24,7 @@ class Handle {
   }
 
   hid_t id() const { return id_; }
-  /// Whether closing went well.
+  /// Closes the identifier. Returns whether that succeeded.
   bool reset() { return id_ < 0 || close_(std::exchange(id_, -1)) >= 0; }
 
  private:

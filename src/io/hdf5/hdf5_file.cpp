@@ -1,11 +1,11 @@
-#include "hdf5_file.h"
+#include "io/hdf5/hdf5_file.h"
 
 #include <algorithm>
 #include <mutex>
 #include <system_error>
 
 #include "base/text.h"
-#include "file_state.h"
+#include "io/hdf5/file_state.h"
 
 namespace svnet {
 namespace {

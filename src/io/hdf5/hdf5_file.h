@@ -23,24 +23,24 @@ struct Hdf5Array {
 /// An HDF5 file that is read, or one that is written. Objects are named by their path from the root, "a/b/c"; "" is the
 /// root group.
 ///
-/// Damaged files throw Error. Only hard links are followed; external and virtual datasets, filters other than gzip and
-/// shuffle, plug-ins, and sizes that the file cannot hold are refused. Text must be UTF-8 without NUL. Everything that
-/// goes wrong throws Error with the file, the object and the innermost message of the HDF5 library, which prints
-/// nothing itself. Headers are decoded by the library: a file that was made to exploit its flaws is not kept from it.
-/// Not thread-safe: one thread at a time may use one file. A file that is written cannot be read before it is closed.
+/// Throws Error that names the file, the object and the HDF5 library's reason if anything fails; the library itself
+/// prints nothing. Only hard links are followed. Refused are damaged files, external and virtual datasets, filters
+/// other than gzip and shuffle, sizes that the file cannot hold, and text that is not UTF-8 without NUL. The library
+/// decodes the headers, so this is no protection against files made to exploit its bugs.
 ///
-/// A written file holds no times: the same calls give the same bytes. Its metadata carry checksums (HDF5 1.8 format).
+/// Not thread-safe: only one thread at a time may use a file. A file that is written cannot be read before close().
+/// It holds no time stamps: the same calls give the same bytes. Its metadata have checksums (HDF5 1.8 format).
 class Hdf5File {
  public:
   static Hdf5File open(const std::filesystem::path& path);
-  /// Replaces the file at `path`. Errors call it `name_in_messages` where that is given (for temporary files).
+  /// Replaces the file at `path`. Errors call it `name_in_messages` if given, else `path`.
   static Hdf5File create(const std::filesystem::path& path, const std::string& name_in_messages = {});
-  /// Closes; what was written is only known to be in the file after close().
+  /// Closes the file. Only close() reports a failed write.
   ~Hdf5File();
   Hdf5File(Hdf5File&&) noexcept;
   Hdf5File& operator=(Hdf5File&&) noexcept;
 
-  /// Throws Error if anything could not be written. Nothing else may be called afterwards.
+  /// Throws Error if anything could not be written. No other function may be called afterwards.
   void close();
 
   /// The file as errors call it.
@@ -66,14 +66,14 @@ class Hdf5File {
   template <class T>
   T number_attribute(const std::string& object, const std::string& name) const;
 
-  /// Groups on the way are created; so they are by `write`.
+  /// Creates the group and its parents. `write` creates the parents of a dataset too.
   void create_group(const std::string& group);
-  /// T: float, double, std::int64_t, std::uint64_t, std::string (variable length, UTF-8, as h5py writes them). The
-  /// dataset must be new; `values` holds as many as the shape says.
+  /// T: float, double, std::int64_t, std::uint64_t, std::string (variable length, UTF-8, as h5py writes them). Requires
+  /// that the dataset is new and that `values` has as many elements as the shape.
   template <class T>
   void write(const std::string& dataset, const std::vector<Index>& shape, std::span<const T> values);
 
-  /// Attributes must be new and their object must exist.
+  /// Requires that the object exists and has no attribute of that name.
   void write_text_attribute(const std::string& object, const std::string& name, const std::string& value);
   void write_text_list_attribute(const std::string& object, const std::string& name,
                                  std::span<const std::string> values);

@@ -1,8 +1,8 @@
-#include "object_header.h"
+#include "io/hdf5/object_header.h"
 
 #include <vector>
 
-#include "bytes.h"
+#include "io/hdf5/bytes.h"
 
 namespace svnet::hdf5 {
 namespace {

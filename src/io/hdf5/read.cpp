@@ -1,8 +1,8 @@
 #include <type_traits>
 
-#include "convert.h"
-#include "file_state.h"
-#include "hdf5_file.h"
+#include "io/hdf5/convert.h"
+#include "io/hdf5/file_state.h"
+#include "io/hdf5/hdf5_file.h"
 
 namespace svnet {
 namespace {

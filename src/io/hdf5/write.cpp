@@ -1,9 +1,9 @@
 #include <type_traits>
 
 #include "base/text.h"
-#include "datatype.h"
-#include "file_state.h"
-#include "hdf5_file.h"
+#include "io/hdf5/datatype.h"
+#include "io/hdf5/file_state.h"
+#include "io/hdf5/hdf5_file.h"
 
 namespace svnet {
 namespace {
@@ -27,19 +27,20 @@ Handle file_type() {
   }
 }
 
-/// The type of the values as they are handed to the library; text as pointers.
+/// The type of the values in memory, as the library takes them: strings as pointers.
 template <class T>
 Handle memory_type() {
   const Handle type = file_type<T>();
   return Handle(H5Tget_native_type(type.id(), H5T_DIR_DEFAULT), H5Tclose);
 }
 
-/// What to hand to the library for `values`.
+/// The values as the library takes them. Throws Error for strings that cannot be stored.
 template <class T>
-std::span<const T> handed(const File&, const std::string&, std::span<const T> values) {
+std::span<const T> library_values(const File&, const std::string&, std::span<const T> values) {
   return values;
 }
-std::vector<const char*> handed(const File& file, const std::string& where, std::span<const std::string> values) {
+std::vector<const char*> library_values(const File& file, const std::string& where,
+                                        std::span<const std::string> values) {
   std::vector<const char*> pointers;
   for (const std::string& text : values) {
     if (!is_plain_utf8(text))
@@ -55,15 +56,16 @@ Handle dataspace(const std::vector<Index>& shape) {
   return Handle(H5Screate_simple(static_cast<int>(dims.size()), dims.data(), nullptr), H5Sclose);
 }
 
-/// Creation properties without times, so that the same calls give the same bytes.
-Handle timeless(hid_t property_class) {
+/// Creation properties without time stamps, so that the same calls give the same bytes.
+Handle without_times(hid_t property_class) {
   Handle properties(H5Pcreate(property_class), H5Pclose);
   H5Pset_obj_track_times(properties.id(), false);
   return properties;
 }
 
-Handle made_group(const File& file, std::span<const std::string> parts) {
-  const Handle creation = timeless(H5P_GROUP_CREATE);
+/// Opens the group at the path, and creates the groups of it that are missing.
+Handle open_or_create_group(const File& file, std::span<const std::string> parts) {
+  const Handle creation = without_times(H5P_GROUP_CREATE);
   Handle current(H5Gopen2(file.file.id(), "/", H5P_DEFAULT), H5Gclose);
   for (const std::string& part : parts) {
     const bool exists = H5Lexists(current.id(), part.c_str(), H5P_DEFAULT) > 0;
@@ -80,18 +82,18 @@ void write_attribute(const File& file, const std::string& object, const std::str
                      const std::vector<Index>& shape, std::span<const T> values) {
   const std::string where = hdf5::attribute_place(object, name);
   const Handle parent = file.object(object), space = dataspace(shape), type = file_type<T>(), memory = memory_type<T>();
-  const auto pointers = handed(file, where, values);
+  const auto stored = library_values(file, where, values);
   const Handle attribute(H5Acreate2(parent.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
                          H5Aclose);
   file.done(attribute.id(), where, "cannot be written");
-  if (!values.empty()) file.done(H5Awrite(attribute.id(), memory.id(), pointers.data()), where, "cannot be written");
+  if (!values.empty()) file.done(H5Awrite(attribute.id(), memory.id(), stored.data()), where, "cannot be written");
 }
 
 }  // namespace
 
 void Hdf5File::create_group(const std::string& group) {
   const Quiet quiet;
-  made_group(*state_, hdf5::path_parts(group));
+  open_or_create_group(*state_, hdf5::path_parts(group));
 }
 
 template <class T>
@@ -104,16 +106,16 @@ void Hdf5File::write(const std::string& dataset, const std::vector<Index>& shape
         " values given for a shape of ", count);
   const std::vector<std::string> parts = hdf5::path_parts(dataset);
   check(!parts.empty(), state_->name, ": ", where, ": a dataset needs a name");
-  const Handle parent = made_group(*state_, std::span(parts).first(parts.size() - 1));
+  const Handle parent = open_or_create_group(*state_, std::span(parts).first(parts.size() - 1));
   const Handle space = dataspace(shape), type = file_type<T>(), memory = memory_type<T>();
-  const Handle creation = timeless(H5P_DATASET_CREATE);
-  const auto pointers = handed(*state_, where, values);
+  const Handle creation = without_times(H5P_DATASET_CREATE);
+  const auto stored = library_values(*state_, where, values);
   const Handle handle(
       H5Dcreate2(parent.id(), parts.back().c_str(), type.id(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
       H5Dclose);
   state_->done(handle.id(), where, "cannot be written");
   if (!values.empty())
-    state_->done(H5Dwrite(handle.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, pointers.data()), where,
+    state_->done(H5Dwrite(handle.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data()), where,
                  "cannot be written");
 }
 

@@ -8,19 +8,20 @@
 #include <string>
 
 #include "base/error.h"
-#include "image_codecs.h"
 #include "io/files/atomic_file.h"
+#include "io/images/image_codecs.h"
 
 namespace svnet {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Of a scene that a robot looks at; beyond it numbers are in another unit.
+/// No scene of a robot is as deep; larger values are in another unit than metres.
 constexpr float kFarthest_m = 100;
-/// The largest level, which cameras write for a hole as well.
-constexpr std::uint16_t kNoLevel = 65535;
+/// Cameras write this PNG level, or 0, for pixels that were not measured.
+constexpr std::uint16_t kNotMeasured = 65535;
 
+/// Throws Error unless at least one pixel was measured.
 const DepthImage& checked(const std::string& name, const DepthImage& image) {
   const auto is_distance = [](float z) { return z > 0; };
   check(std::any_of(image.metres.begin(), image.metres.end(), is_distance), name, ": holds no distance between 0 and ",
@@ -28,9 +29,10 @@ const DepthImage& checked(const std::string& name, const DepthImage& image) {
   return image;
 }
 
-float metres_or_hole(double z) { return z > 0 && z < static_cast<double>(kFarthest_m) ? static_cast<float>(z) : 0.0f; }
+/// The depth, or 0 if `z` means that the pixel was not measured.
+float depth_or_zero(double z) { return z > 0 && z < static_cast<double>(kFarthest_m) ? static_cast<float>(z) : 0.0f; }
 
-/// Format: "\x93NUMPY", version, length of the header, a Python dictionary, then the numbers.
+/// Format: "\x93NUMPY", version, length of the header, a Python dictionary, then the array.
 /// https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html
 DepthImage decode_npy(const std::string& name, Bytes file) {
   const auto damaged = [&](const char* what) {
@@ -73,7 +75,7 @@ DepthImage decode_npy(const std::string& name, Bytes file) {
       std::memcpy(&z, data + i * width, width);
     else
       std::memcpy(&single, data + i * width, width), z = static_cast<double>(single);
-    image.metres[i] = metres_or_hole(z);
+    image.metres[i] = depth_or_zero(z);
   }
   return image;
 }
@@ -92,7 +94,7 @@ DepthImage read_depth(const fs::path& path) {
   DepthImage image{grey.height, grey.width, {}};
   image.metres.reserve(grey.levels.size());
   for (const std::uint16_t level : grey.levels)
-    image.metres.push_back(level == kNoLevel ? 0.0f : static_cast<float>(level) / 1000);
+    image.metres.push_back(level == kNotMeasured ? 0.0f : static_cast<float>(level) / 1000);
   return checked(name, image);
 }
 
@@ -101,7 +103,7 @@ void write_depth_png(const fs::path& path, const DepthImage& depth) {
   grey.levels.reserve(depth.metres.size());
   for (const float z : depth.metres) {
     const double mm = std::round(1000.0 * static_cast<double>(z));
-    grey.levels.push_back(mm >= 0 && mm < kNoLevel ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
+    grey.levels.push_back(mm >= 0 && mm < kNotMeasured ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
   }
   write_atomically(path, encoded_grey16_png(path.string(), grey));
 }

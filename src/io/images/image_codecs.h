@@ -8,8 +8,8 @@
 
 #include "image/image.h"
 
-// The codecs behind io/image_file.h. Each takes the whole file and throws Error for what it cannot decode completely;
-// `name` begins the message.
+// The image formats, and what they share. A decoder takes the contents of a whole file and throws Error unless it can
+// decode all of them. `name` begins the message of every Error. io/images/image_file.h chooses the decoder.
 namespace svnet {
 
 using Bytes = std::span<const std::uint8_t>;
@@ -18,33 +18,33 @@ Image decode_jpeg(const std::string& name, Bytes file);
 Image decode_png(const std::string& name, Bytes file);
 Image decode_webp(const std::string& name, Bytes file);
 
-/// The contents of a PNG file.
+/// The contents of a PNG file with 8-bit RGB pixels.
 std::string encoded_png(const std::string& name, const Image& image);
 
-/// A picture of one 16-bit channel, (height, width).
+/// An image with one 16-bit channel, (height, width).
 struct Grey16 {
   Index height = 0;
   Index width = 0;
   std::vector<std::uint16_t> levels;
 };
 
-/// Throws Error for PNG pictures of any other kind.
+/// Throws Error for any other kind of PNG.
 Grey16 decode_grey16_png(const std::string& name, Bytes file);
 std::string encoded_grey16_png(const std::string& name, const Grey16&);
-/// One 8-bit channel.
+/// `levels`: one 8-bit channel, (height, width).
 std::string encoded_grey_png(const std::string& name, Index height, Index width, std::span<const std::uint8_t> levels);
 
-/// The whole file. Throws Error that names it where it cannot be read, is empty, or larger than a picture can be.
+/// The bytes of a file. Throws Error that names it if it cannot be read, is empty, or is larger than 1 GiB.
 std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
-/// Whether `expected` is at `offset`.
+/// Whether the bytes `expected` are at `offset`.
 bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);
 
-/// Throws Error for a picture without pixels, or with more than 64 megapixels.
+/// Throws Error unless the image has at least one pixel and at most kMostPixels.
 void check_image_size(const std::string& name, Index height, Index width);
-/// An image with room for its pixels. Throws Error as check_image_size does.
+/// A black image. Throws Error where check_image_size does.
 Image image_of_size(const std::string& name, Index height, Index width);
 
-/// The Error of a file that the codec gave up on, with its reason.
+/// Throws the Error of a file that a codec could not decode, with the codec's `reason`.
 [[noreturn]] void fail_damaged(const std::string& name, const char* kind, const std::string& reason);
 
 }  // namespace svnet

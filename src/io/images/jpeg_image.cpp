@@ -5,15 +5,15 @@
 #include <jpeglib.h>
 
 #include "base/error.h"
-#include "image_codecs.h"
+#include "io/images/image_codecs.h"
 
 namespace svnet {
 namespace {
 
-/// libjpeg with errors that come back here instead of ending the process, and warnings that mean lost pixels counted as
-/// errors: libjpeg itself fills the missing part of a file with grey and says so on stderr only.
+/// libjpeg with errors that return here instead of ending the process. A warning that means lost pixels is an error
+/// too: libjpeg fills the missing part of a truncated file with grey and only warns on stderr.
 ///
-/// The functions that call setjmp hold no objects with destructors, which longjmp would skip.
+/// The functions that call setjmp have no local objects with destructors, because longjmp would skip those.
 class JpegDecoder {
  public:
   explicit JpegDecoder(Bytes file) : file_(file) {}
@@ -39,7 +39,7 @@ class JpegDecoder {
   int channels() const { return jpeg_.num_components; }
   const char* reason() const { return errors_.message; }
 
-  /// Decodes to the last marker of the file. rgb (height, width, 3).
+  /// Decodes the whole file, including the end marker. rgb (height, width, 3).
   bool read_pixels(std::uint8_t* rgb) {
     if (setjmp(errors_.back) != 0) return false;
     jpeg_.out_color_space = JCS_RGB;
@@ -65,7 +65,7 @@ class JpegDecoder {
     std::longjmp(errors->back, 1);
   }
 
-  /// Warnings about unusual headers and bytes between segments leave every pixel as it was meant.
+  /// Warnings about unusual headers and about bytes between segments do not affect pixels.
   static bool loses_pixels(int warning) {
     return warning != JWRN_EXTRANEOUS_DATA && warning != JWRN_ADOBE_XFORM && warning != JWRN_JFIF_MAJOR;
   }

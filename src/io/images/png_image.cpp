@@ -7,15 +7,15 @@
 #include <png.h>
 
 #include "base/error.h"
-#include "image_codecs.h"
+#include "io/images/image_codecs.h"
 
 namespace svnet {
 namespace {
 
-/// libpng with errors that come back here and warnings (about colour profiles, mostly) that go nowhere. It checks the
-/// CRC of every chunk that matters, and reading to the end chunk shows that the file is whole.
+/// libpng with errors that return here and without warnings (most are about colour profiles). It checks the CRC of
+/// every critical chunk, and reading up to the end chunk refuses truncated files.
 ///
-/// The functions that call setjmp hold no objects with destructors, which longjmp would skip.
+/// The functions that call setjmp have no local objects with destructors, because longjmp would skip those.
 class PngDecoder {
  public:
   explicit PngDecoder(Bytes file) : rest_(file) {
@@ -54,7 +54,7 @@ class PngDecoder {
     return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png_, info_) == 16;
   }
 
-  /// rows: the addresses of height rows of width 16-bit numbers.
+  /// rows: the addresses of height rows of width 16-bit levels.
   bool read_grey16(std::uint8_t** rows) {
     if (setjmp(back_) != 0) return false;
     if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
@@ -121,7 +121,7 @@ Grey16 decode_grey16_png(const std::string& name, Bytes file) {
 
 namespace {
 
-/// `format`: one of libpng's simplified formats; `pixels` fit it. The linear ones are written as they are.
+/// Encodes `pixels`, which are in `format`, one of the formats of libpng's simplified API.
 std::string encoded(const std::string& name, Index height, Index width, png_uint_32 format, const void* pixels) {
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

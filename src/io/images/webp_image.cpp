@@ -1,12 +1,12 @@
 #include <webp/decode.h>
 
 #include "base/error.h"
-#include "image_codecs.h"
+#include "io/images/image_codecs.h"
 
 namespace svnet {
 namespace {
 
-/// What the header says the file has: the RIFF chunk's length and the 8 bytes before it.
+/// The size of the file according to its header: the length of the RIFF chunk and the 8 bytes before it.
 std::uint64_t stated_size(Bytes file) {
   return (std::uint64_t{file[4]} | std::uint64_t{file[5]} << 8 | std::uint64_t{file[6]} << 16 |
           std::uint64_t{file[7]} << 24) +

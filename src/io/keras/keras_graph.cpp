@@ -33,7 +33,7 @@ std::string snake_case(const std::string& name) {
 /// Whether Keras made the name by itself, from the layer's class and a counter ("conv2d", "conv2d_7"): such a name says
 /// nothing about the layer's place.
 bool is_automatic_name(const std::string& name, const Layer& layer) {
-  const std::string stem = snake_case(kind(layer));
+  const std::string stem = snake_case(keras_name(layer));
   if (!name.starts_with(stem)) return false;
   const std::string rest = name.substr(stem.size());
   return rest.empty() || (rest.size() > 1 && rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == rest.npos);
@@ -56,7 +56,7 @@ std::vector<KerasLayer> in_order_of(const Graph& graph, const std::vector<NodeId
   std::map<std::string, std::size_t> used;
   std::vector<KerasLayer> layers;
   for (NodeId id : order) {
-    const std::string class_name = snake_case(kind(graph.node(id).layer));
+    const std::string class_name = snake_case(keras_name(graph.node(id).layer));
     auto& candidates = by_class[class_name];
     std::size_t& next = used[class_name];
     check(next < candidates.size(), file, ": there are ", candidates.size(), " layers of class '", class_name,

@@ -7,17 +7,19 @@
 
 namespace svnet {
 
-/// What became of every layer with weights, in a weights file and in the graph.
+/// Which layers with weights were loaded from a weights file.
 struct KerasLoadReport {
-  std::vector<std::string> loaded;  // graph layers that were filled, "block_1_expand"
-  std::vector<std::string> unused;  // layers of the file that the output does not need: a top that was not asked for
+  std::vector<std::string> loaded;  // layers of the graph, such as "block_1_expand"
+  std::vector<std::string> unused;  // layers of the file that the output does not need, such as those of the top
 };
 
-/// The backbone with the weights of a Keras file, legacy layout or Keras 3. Layers are matched by position among those
-/// with weights, in the order of Keras' model.layers (keras_order); Keras 3 files by class and counter in the same
-/// order. All layers are checked, also those of the top where the file has one; only the numbers that the output needs
-/// are read. Throws Error that names file and layers for anything missing, unexpected or of another shape; a name in
-/// the file that belongs to another layer means that the order is wrong.
+/// The backbone with the weights of a Keras file, legacy layout or Keras 3. The i-th layer with weights in the file
+/// belongs to the i-th one of the graph in the order of Keras' model.layers (keras_order). In Keras 3 files the layers
+/// are first put into that order by class and counter. All layers are checked, those of the top too if the file has it;
+/// only the weights that the output needs are read.
+///
+/// Throws Error that names the file and the layer if one is missing, unexpected or of another shape, or has the name of
+/// another layer of the graph.
 Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
                              KerasLoadReport* report = nullptr);
 

@@ -1,10 +1,9 @@
 #include "io/keras/keras_weights.h"
 
-#include <algorithm>
-#include <cmath>
 #include <set>
 
 #include "base/error.h"
+#include "base/finite.h"
 #include "base/text.h"
 
 namespace svnet {
@@ -142,9 +141,9 @@ KerasWeightsFile::KerasWeightsFile(const std::filesystem::path& path)
 
 std::vector<float> KerasWeightsFile::values(const KerasArray& array) const {
   std::vector<float> values = file_.read<float>(array.dataset).values;
-  const auto bad = std::find_if(values.begin(), values.end(), [](float x) { return !std::isfinite(x); });
-  check(bad == values.end(), name(), ": dataset '", printable(array.dataset), "': value ", bad - values.begin(),
-        " is not finite; the weights are damaged or were never trained");
+  if (const auto bad = first_not_finite(values))
+    fail(name(), ": dataset '", printable(array.dataset), "': value ", *bad,
+         " is not finite; the weights are damaged or were never trained");
   return values;
 }
 

@@ -8,19 +8,19 @@
 
 namespace svnet {
 
-/// An array of a weights file, without its numbers. Keras' own names, shapes and axis orders.
+/// Name and shape of an array in a weights file, as Keras wrote them.
 struct KerasArray {
   std::string name;
   std::vector<Index> shape;
-  std::string dataset;  // where it lies in the file
+  std::string dataset;  // the path of its HDF5 dataset
 };
 
 struct KerasLayer {
-  std::string path;        // the legacy layout: the layer's name. Keras 3: its place below `layers`, "conv2d_1", or
-                           // "functional/layers/conv2d_1" in a model inside the model
+  std::string path;        // legacy: the layer's name. Keras 3: its path below `layers`, "conv2d_1", or
+                           // "functional/layers/conv2d_1" in a nested model
   std::string class_name;  // Keras 3: "conv2d"
-  Index counter = 0;       // Keras 3: 1, how many of the class came before in `model.layers`
-  std::string layer_name;  // Keras 3: the layer's own name, where the file has it
+  Index counter = 0;       // Keras 3: 1 in "conv2d_1", the number of layers of the class before it in `model.layers`
+  std::string layer_name;  // Keras 3: the layer's own name, if the file has it
   std::vector<KerasArray> arrays;
 };
 
@@ -29,28 +29,29 @@ enum class KerasLayout {
   keras3,  // .weights.h5
 };
 
-/// A weights file whose layers are known at once and whose numbers are read array by array: of a large network, only
-/// what is used need come into memory.
+/// A weights file. Opening it reads the names and shapes; `values` reads one array, so that only the weights that are
+/// used take memory.
 ///
-/// The legacy layout lies at the root or, in files that hold a whole model, in its group `model_weights`. Layers in the
-/// order of the attribute `layer_names`, arrays in the order of each layer's `weight_names` (both may be split,
-/// `layer_names0`, `layer_names1`, …); layers without weights have no arrays. Weights of the model itself, beside its
-/// layers, come last as `top_level_model_weights`.
+/// Legacy layout: at the root or, in files of whole models, in the group `model_weights`. The layers have the order of
+/// the attribute `layer_names`, the arrays that of each layer's `weight_names`. (Keras may split both: `layer_names0`,
+/// `layer_names1`, ….) Layers without weights have no arrays. Weights of the model itself come last, as
+/// `top_level_model_weights`.
 ///
-/// The Keras 3 layout lies in the group `layers`. Layers in natural order of their paths, which is `model.layers` order
-/// within one class but not between classes; arrays in numerical order, named "0", "1", …. Weights of the model itself
-/// come last, with an empty path. The states of optimizers and of random generators are left alone.
+/// Keras 3 layout: in the group `layers`. The layers have the natural order of their paths; within a class that is the
+/// order of `model.layers`, between classes it is not. The arrays are named "0", "1", …. Weights of the model itself
+/// come last, with an empty path. The states of optimizers and random generators are ignored.
 class KerasWeightsFile {
  public:
-  /// Throws Error that names file and dataset for files of neither layout, missing datasets and damaged files.
+  /// Throws Error that names the file and the HDF5 dataset if the file has neither layout, lacks a dataset or is
+  /// damaged.
   explicit KerasWeightsFile(const std::filesystem::path& path);
 
   const std::string& name() const { return file_.name(); }
   KerasLayout layout() const { return layout_; }
   const std::vector<KerasLayer>& layers() const { return layers_; }
 
-  /// float16, float32 and float64 become float32. Throws Error that names file and dataset for values that are not
-  /// finite.
+  /// The values of an array; float16, float32 and float64 become float32. Throws Error that names the file and the HDF5
+  /// dataset if a value is not finite.
   std::vector<float> values(const KerasArray& array) const;
 
  private:

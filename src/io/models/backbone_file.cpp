@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/sha256.h"
-#include "built_in_weights.h"
+#include "io/models/built_in_weights.h"
 #include "io/tensors/tensor_file.h"
 
 namespace svnet {

@@ -5,32 +5,32 @@
 
 #include "io/keras/keras_graph.h"
 
-// The weights of backbones: files that Keras publishes (io/keras_graph.h), files of svnet's own, whose names end in
-// .safetensors, and those that are built in (data/).
+// The weights of backbones: files of Keras (io/keras/keras_graph.h), files of svnet's own, whose names end in
+// .safetensors, and weights that are part of the program (data/tiny_xception.safetensors).
 namespace svnet {
 
-/// Writes a TensorFile of kind "weights": tensors "<layer>/<parameter>"; description {"backbone", "origin"}, `origin`
-/// being a line on how they were made. Replaces the file as a whole.
+/// Writes a TensorFile of kind "weights" with the tensors "<layer>/<parameter>" and the description {"backbone",
+/// "origin"}. `origin` is one line that says how the weights were made. Replaces the file as a whole.
 void write_backbone(const std::filesystem::path& path, const Backbone& backbone, const std::string& origin);
 
-/// The backbone with the weights of the file, of either kind. Throws Error that names the file and the layer or tensor
-/// for anything missing, unexpected or of another shape.
+/// The backbone with the weights of a Keras or safetensors file. Throws Error that names the file and the layer or
+/// tensor if one is missing, unexpected or of another shape.
 Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer = "",
                        KerasLoadReport* report = nullptr);
 
-/// Whether weights of the backbone are part of the program: tiny_xception alone has some.
+/// Whether weights of the backbone are part of the program. Only tiny_xception has some.
 bool has_built_in_weights(const BackboneKind& kind);
 
-/// A backbone with the weights that are part of the program, and the SHA-256 of the file that they were.
+/// A backbone with the weights that are part of the program, and the SHA-256 of their file.
 struct BuiltInBackbone {
   Backbone backbone;
   std::string sha256;
 };
-/// Empty where the backbone has none. Throws Error where there is no such backbone or layer.
+/// Empty if the backbone has no built-in weights. Throws Error for an unknown backbone or layer.
 std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer = "");
 
-/// The file of the backbone's weights in a folder: <name>.safetensors, or one of the names under which Keras publishes
-/// them; empty where there is none.
+/// The file of the backbone's weights in a folder: <name>.safetensors, or a name under which Keras publishes them.
+/// Empty if there is none.
 std::optional<std::filesystem::path> find_weights(const BackboneKind& kind, const std::filesystem::path& folder);
 
 }  // namespace svnet

@@ -1,4 +1,4 @@
-#include "built_in_weights.h"
+#include "io/models/built_in_weights.h"
 
 // The assembler puts the file into the program, which so needs no other file, wherever it is installed.
 __asm__(

@@ -5,7 +5,7 @@
 
 namespace svnet {
 
-/// The contents of the weights file of a backbone that is part of the program; empty where there is none.
+/// The contents of the backbone's weights file that is part of the program; empty if there is none.
 std::span<const std::byte> built_in_weights(const std::string& backbone);
 
 }  // namespace svnet

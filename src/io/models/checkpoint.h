@@ -7,31 +7,31 @@
 
 namespace svnet {
 
-/// A training run between two epochs: all that going on needs.
+/// The state of training after an epoch: everything that resuming needs.
 struct Checkpoint {
-  std::string input_fingerprint;  // of everything that the run depends on
-  Index epoch = 0;                // epochs done
-  Index steps = 0;                // optimizer steps done
-  double best_loss = 0;           // of the best epoch so far
-  std::string metrics;            // metrics.csv so far
+  std::string input_fingerprint;  // of everything that training depends on
+  Index epoch = 0;                // number of finished epochs
+  Index steps = 0;                // number of optimizer steps so far
+  double best_loss = 0;           // the lowest loss of an epoch so far
+  std::string metrics;            // the contents of metrics.csv so far
   Parameters parameters;          // of the trained graph (models/trained_graph.h)
-  std::vector<Tensor> optimizer;  // its state
+  std::vector<Tensor> optimizer;  // the optimizer's state (nn/optim/optimizer.h)
 };
 
-// A TensorFile of kind "checkpoint": tensors "<layer>/<parameter>" and "optimizer/<number>"; the other members are
-// in the description.
+// The file is a TensorFile of kind "checkpoint" with the tensors "<layer>/<parameter>" and "optimizer/<index>". Its
+// description has the other members.
 
 /// Replaces the file as a whole.
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint);
 
-/// The parameters must be those of `graph`; the optimizer's state has the shapes `optimizer`. Throws Error that
-/// names the file and what is wrong with it.
+/// Throws Error that names the file and the tensor unless it has the parameters of `graph` and an optimizer's state
+/// with the shapes `optimizer`.
 Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph, const std::vector<Shape>& optimizer);
 
-/// The parameters alone: the optimizer's state, which may be twice as large, is not read.
+/// Reads only the parameters. The optimizer's state, which can be twice as large, is skipped.
 Parameters read_checkpoint_parameters(const std::filesystem::path& path, const Graph& graph);
 
-/// The fingerprint alone; empty where the file does not exist. Throws Error where it is no checkpoint.
+/// Reads only the fingerprint; empty if the file does not exist. Throws Error for a file that is not a checkpoint.
 std::string read_checkpoint_fingerprint(const std::filesystem::path& path);
 
 }  // namespace svnet

@@ -6,13 +6,13 @@
 
 namespace svnet {
 
-// A graph as JSON: a list of nodes {"name", "kind", "inputs": [names], attributes…}; the kinds are Keras' class names,
-// the attributes those of nn/graph/layer_fields.h.
+// A graph as JSON: a list of nodes {"name", "kind", "inputs": [names], attributes…}. The kinds are Keras' class names;
+// the attributes are those that the layers visit (nn/layers).
 
 nlohmann::json graph_to_json(const Graph& graph);
 
-/// `where` begins every error message ("model.safetensors: backbone"). Throws Error that names the node and the
-/// attribute for anything that is missing, of the wrong type or does not make a graph.
+/// Throws Error that names the node and the attribute if something is missing, of the wrong type, or the nodes do not
+/// make a graph. `where` begins the message ("model.safetensors: backbone").
 Graph graph_from_json(const nlohmann::json& json, const std::string& where);
 
 }  // namespace svnet

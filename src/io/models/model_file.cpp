@@ -4,7 +4,7 @@
 
 #include "io/models/graph_json.h"
 #include "io/tensors/tensor_file.h"
-#include "models/orientation.h"
+#include "view/symmetry.h"
 
 namespace svnet {
 namespace {
@@ -37,10 +37,10 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
 }
 
 void check_fits_together(const Model& model) {
-  check(model.orientations == 1 || model.orientations == kOrientations, "there are ", model.orientations,
-        " orientations, expected 1 or ", kOrientations);
+  check(model.symmetries == 1 || model.symmetries == kSymmetries, "there are ", model.symmetries,
+        " orientations, expected 1 or ", kSymmetries);
   const Preprocessing& p = model.preprocessing;
-  check(model.orientations == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
+  check(model.symmetries == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
         " cannot be turned; only square ones can");
   const Graph &backbone = model.backbone_graph, &head = model.head;
   const auto pictures = backbone.inputs(), inputs = head.inputs();
@@ -66,7 +66,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
       {"head", {{"graph", graph_to_json(model.head)}}},
       {"angles", {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}},
       {"input_fingerprint", model.input_fingerprint}};
-  if (model.orientations != 1) file.description()["head"]["orientations"] = model.orientations;
+  if (model.symmetries != 1) file.description()["head"]["orientations"] = model.symmetries;
   add_parameters(file, "backbone", backbone, model.backbone_parameters);
   add_parameters(file, "head", model.head, model.head_parameters);
   file.write(path);
@@ -85,7 +85,7 @@ Model read_model(const std::filesystem::path& path) {
     model.preprocessing = preprocessing_from_json(preprocessing);
     model.head = graph_from_json(head.at("graph"), "head");
     model.angles = angle_encoding_named(angles.at("encoding").get<std::string>());
-    model.orientations = head.value("orientations", 1);
+    model.symmetries = head.value("orientations", 1);
     check_fits_together(model);
   } catch (const Error& error) {
     fail(path.string(), ": ", error.what());

@@ -5,15 +5,15 @@
 
 namespace svnet {
 
-// A TensorFile of kind "model": tensors "backbone/<layer>/<parameter>" and "head/<layer>/<parameter>"; description
-// {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels", "height", "width", "interpolation",
-// "channels"}, "head": {"graph", "orientations": only where not 1}, "angles": {"encoding", "unit", "order"},
-// "input_fingerprint"}.
+// The file is a TensorFile of kind "model" with the tensors "backbone/<layer>/<parameter>" and
+// "head/<layer>/<parameter>". Its description is {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels",
+// "height", "width", "interpolation", "channels"}, "head": {"graph", "orientations"}, "angles": {"encoding", "unit",
+// "order"}, "input_fingerprint"}. "orientations" is the number of symmetries and is left out if it is 1.
 
-/// Replaces the file as a whole. Layers of the backbone above its output are left out.
+/// Replaces the file as a whole. Layers of the backbone that its output does not need are left out.
 void write_model(const std::filesystem::path& path, const Model& model);
 
-/// Throws Error that names the file and what is wrong with it.
+/// Throws Error that names the file and says what is wrong.
 Model read_model(const std::filesystem::path& path);
 
 }  // namespace svnet

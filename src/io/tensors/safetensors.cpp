@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/files/atomic_file.h"
-#include "safetensors_header.h"
+#include "io/tensors/safetensors_header.h"
 
 namespace svnet {
 namespace {

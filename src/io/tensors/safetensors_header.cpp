@@ -1,4 +1,4 @@
-#include "safetensors_header.h"
+#include "io/tensors/safetensors_header.h"
 
 #include <algorithm>
 #include <iterator>

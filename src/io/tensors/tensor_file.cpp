@@ -1,10 +1,9 @@
 #include "io/tensors/tensor_file.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
+#include "base/finite.h"
 #include "io/tensors/safetensors.h"
 
 namespace svnet {
@@ -17,10 +16,8 @@ std::string path_of(const std::string& prefix, const std::string& name) {
 }
 
 void check_finite(const std::string& path, const std::string& name, const Tensor& tensor) {
-  const auto numbers = tensor.values<float>();
-  const auto bad = std::find_if(numbers.begin(), numbers.end(), [](float x) { return !std::isfinite(x); });
-  check(bad == numbers.end(), path, ": tensor '", name, "' holds a value that is not finite at ",
-        bad - numbers.begin());
+  if (const auto bad = first_not_finite(tensor.values<float>()))
+    fail(path, ": tensor '", name, "' holds a value that is not finite at ", *bad);
 }
 
 Tensor copied(const std::string& path, const SafetensorsTensor& from) {

@@ -8,15 +8,15 @@
 
 namespace svnet {
 
-/// A camera and, perhaps, where it is (optical frame to world).
+/// A camera and, if known, the pose of its optical frame in the world.
 struct CameraFile {
   Intrinsics intrinsics;
   std::optional<Eigen::Isometry3d> camera_to_world;
 };
 
 /// A JSON file: {"width": 640, "height": 480, "fx": 600, "fy": 600, "cx": 319.5, "cy": 239.5, "pose": {"x_m": 0, "y_m":
-/// 0, "z_m": 1, "qx": 0, "qy": 1, "qz": 0, "qw": 0}}, pose optional. Throws Error, one line that names the file and the
-/// key, for anything else.
+/// 0, "z_m": 1, "qx": 0, "qy": 1, "qz": 0, "qw": 0}}. The key "pose" is optional. Throws Error that names the file and
+/// the key for anything else.
 CameraFile read_camera(const std::filesystem::path& path);
 
 /// The text of such a file.

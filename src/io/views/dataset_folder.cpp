@@ -48,7 +48,7 @@ bool is_file(const fs::path& path) {
   return fs::is_regular_file(path, ignored);
 }
 
-/// The folders in `folder`, which is `what`; each is `part`.
+/// The subfolders of `folder`. `what` it is and the `part` that each of them is are words for messages.
 std::vector<fs::path> subfolders(const fs::path& folder, const char* what, const char* part) {
   std::vector<fs::path> found = entries(folder);
   for (const fs::path& path : found)
@@ -64,7 +64,7 @@ bool has_view_extension(const fs::path& path) {
   return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
 }
 
-/// Digits only, no more than four.
+/// One to four digits as a number.
 std::optional<int> angle(std::string_view text) {
   if (text.empty() || text.size() > 4 ||
       !std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }))

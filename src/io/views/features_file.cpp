@@ -1,9 +1,7 @@
 #include "io/views/features_file.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "base/error.h"
+#include "base/finite.h"
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
@@ -42,16 +40,14 @@ void check_features(const std::string& file, const Features& features) {
         features.theta_phi_deg.size(), " rows, 'features' has ", features.count);
   check(static_cast<Index>(features.paths.size()) == features.count, file, ": dataset 'paths': has ",
         features.paths.size(), " rows, 'features' has ", features.count);
-  const auto bad =
-      std::find_if(features.values.begin(), features.values.end(), [](float x) { return !std::isfinite(x); });
-  if (bad != features.values.end()) {
-    const Index row = (bad - features.values.begin()) / features.dimension;
-    fail(file, ": dataset 'features': row ", row, " (", printable(features.paths[static_cast<std::size_t>(row)]),
+  if (const auto bad = first_not_finite(features.values)) {
+    const std::size_t row = *bad / static_cast<std::size_t>(features.dimension);
+    fail(file, ": dataset 'features': row ", row, " (", printable(features.paths[row]),
          ") has a value that is not finite");
   }
   for (std::size_t row = 0; row < features.theta_phi_deg.size(); ++row)
-    check(std::isfinite(features.theta_phi_deg[row][0]) && std::isfinite(features.theta_phi_deg[row][1]), file,
-          ": dataset 'th_ph': row ", row, " (", printable(features.paths[row]), ") has an angle that is not finite");
+    check(!first_not_finite(features.theta_phi_deg[row]), file, ": dataset 'th_ph': row ", row, " (",
+          printable(features.paths[row]), ") has an angle that is not finite");
 }
 
 }  // namespace

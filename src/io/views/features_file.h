@@ -5,14 +5,14 @@
 
 namespace svnet {
 
-// HDF5. Datasets: `features` (N, D) float32, `th_ph` (N, 2) float64, degrees, `paths` (N) UTF-8. Attributes of the
-// root: the members of FeaturesOrigin, by these names.
+// The HDF5 datasets are `features` (N, D) float32, `th_ph` (N, 2) float64 in degrees, and `paths` (N) UTF-8. The
+// attributes of the root have the names of the members of FeaturesOrigin.
 
-/// Throws Error that names the file, the dataset and the row unless shapes agree, there is at least one value and all
-/// are finite.
+/// Throws Error that names the file, the HDF5 dataset and the row unless the shapes agree, there is at least one value,
+/// and all values are finite.
 Features read_features(const std::filesystem::path& path);
 
-/// Replaces the file as a whole. Throws Error where read_features would.
+/// Replaces the file as a whole. Throws Error for features that read_features would refuse.
 void write_features(const std::filesystem::path& path, const Features& features);
 
 }  // namespace svnet

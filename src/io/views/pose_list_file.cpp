@@ -19,7 +19,7 @@ std::string_view trimmed(std::string_view text) {
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Column `index` of a line of values with commas between them; empty where there are fewer.
+/// Column `index` of a line of comma-separated values; empty if there are fewer columns.
 std::string_view column(std::string_view line, int index) {
   for (; index > 0; --index) line.remove_prefix(std::min(line.find(','), line.size() - 1) + 1);
   return trimmed(line.substr(0, line.find(',')));
@@ -27,10 +27,10 @@ std::string_view column(std::string_view line, int index) {
 
 }  // namespace
 
-std::vector<Pose> read_pose_list(const std::filesystem::path& path) {
+std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   check(file && !std::filesystem::is_directory(path), path.string(), ": cannot be read; expected a CSV file of poses");
-  std::vector<Pose> poses;
+  std::vector<CameraPose> poses;
   std::ptrdiff_t commas = -1;  // of the header
   std::string line;
   for (long number = 1; std::getline(file, line); ++number) {
@@ -48,7 +48,7 @@ std::vector<Pose> read_pose_list(const std::filesystem::path& path) {
     }
     check(commas_here == commas, path.string(), ":", number, ": '", printable(text), "' has ", commas_here + 1,
           " columns, the header ", commas + 1);
-    Pose pose;
+    CameraPose pose;
     check(parse_number(first, pose.theta_deg) && parse_number(second, pose.phi_deg), path.string(), ":", number, ": '",
           printable(text), "' does not begin with two numbers, theta and phi in degrees");
     const std::string problem = pose_problem(pose);

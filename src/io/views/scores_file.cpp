@@ -56,7 +56,7 @@ void check_scores(const std::string& file, const Scores& scores) {
   const std::size_t rows = scores.paths.size();
   check(rows > 0, file, ": dataset 'paths': is empty");
   check_length(file, "count", scores.count.size(), rows);
-  // Means of values in [0, 1] may leave it by a rounding.
+  // Rounding may move a mean of values in [0, 1] out of the range.
   constexpr double kRounding = 1e-9;
   for (const auto& [name, member, smallest, largest] : kColumns) {
     const std::vector<double>& values = scores.*member;
@@ -74,7 +74,7 @@ void check_scores(const std::string& file, const Scores& scores) {
           scores.paths[row], ") has no score although it was in ", scores.count[row], " problems");
 }
 
-/// Of everything that a snapshot says: a few changed bits would go unnoticed into every score.
+/// A checksum of the whole snapshot. Without it, a few changed bits would change every score unnoticed.
 std::string checksum(const ScoresSnapshot& snapshot) {
   Sha256 hash;
   hash.update_field(snapshot.input_fingerprint).update_field(joined(snapshot.problems, " ", snapshot.views));

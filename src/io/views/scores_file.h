@@ -8,31 +8,33 @@
 
 namespace svnet {
 
-// HDF5. Datasets: `individual`, `global`, `scaled`, `standard_error`, `rank_stability` (N) float64, `count` (N) uint64,
-// `paths` (N) UTF-8. Attributes of the root: the members of ScoresOrigin, by these names.
+// The HDF5 datasets are `individual`, `global`, `scaled`, `standard_error`, `rank_stability` (N) float64, `count` (N)
+// uint64 and `paths` (N) UTF-8. The attributes of the root have the names of the members of ScoresOrigin.
 
-/// Throws Error that names the file, the dataset and the row unless lengths agree, there is at least one view, scores
-/// are in [0, 1] or NaN, standard errors are not negative or NaN, rank stabilities in [-1, 1] or NaN, and views with a
-/// count, which is at most that of the problems, have a global score.
+/// Throws Error that names the file, the HDF5 dataset and the row unless
+/// - all datasets have the same length, at least 1;
+/// - scores are in [0, 1], standard errors not negative and rank stabilities in [-1, 1], or NaN;
+/// - counts are at most the number of problems, and every view with a count above 0 has a global score.
 Scores read_scores(const std::filesystem::path& path);
 
-/// Replaces the file as a whole. Throws Error where read_scores would.
+/// Replaces the file as a whole. Throws Error for scores that read_scores would refuse.
 void write_scores(const std::filesystem::path& path, const Scores& scores);
 
-/// What is known while scores are being made, to go on from.
+/// The state of unfinished scoring, to resume from.
 struct ScoresSnapshot {
-  std::string input_fingerprint;  // as that of the scores to be
-  Index problems = 0;             // solved so far
+  std::string input_fingerprint;  // that of the finished scores
+  Index problems = 0;             // number of problems solved so far
   Index views = 0;
-  std::vector<std::uint64_t> sums{};  // (views, numbers of a view), as the solver keeps them
+  std::vector<std::uint64_t> sums{};  // (views, sums per view), as the solver keeps them
 };
 
-// HDF5. Dataset `sums` (views, numbers) uint64; attributes `input_fingerprint`, `problems`, `checksum`, a SHA-256.
+// The HDF5 dataset is `sums` (views, sums per view) uint64; the attributes are `input_fingerprint`, `problems` and
+// `checksum`, a SHA-256.
 
-/// Where the snapshot of a scores file lies: beside it.
+/// The path of the snapshot of a scores file.
 std::filesystem::path snapshot_path(const std::filesystem::path& scores);
 
-/// Throws Error for a file that is no snapshot, or not as it was written.
+/// Throws Error for a file that is not a snapshot or is damaged.
 ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
 
 /// Replaces the file as a whole.

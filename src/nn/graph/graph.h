@@ -3,7 +3,7 @@
 #include <variant>
 #include <vector>
 
-#include "nn/graph/layer.h"
+#include "nn/layers/layer.h"
 
 namespace svnet {
 

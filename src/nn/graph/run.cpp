@@ -1,103 +1,106 @@
 #include "nn/graph/run.h"
 
 #include "nn/ops/activations.h"
+#include "nn/ops/batch_norm.h"
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
 #include "nn/ops/dropout.h"
+#include "nn/ops/multiply.h"
 #include "nn/ops/pooling.h"
 #include "nn/ops/shaping.h"
 
 namespace svnet {
 namespace {
 
-Tensor activated(const Tensor& x, Activation activation) {
-  switch (activation) {
-    case Activation::none:
-      return x;
-    case Activation::relu:
-      return ops::relu(x);
-    case Activation::relu6:
-      return ops::relu6(x);
-    case Activation::sigmoid:
-      return ops::sigmoid(x);
-    case Activation::softmax:
-      return ops::softmax(x);
-  }
-  return x;
-}
-
-/// How one node gets its parameters: as they are in training, without history in inference.
+/// Runs one node: in training with the parameters as they are, in inference without their history. There is one `run`
+/// for each layer, which takes the layer and the values of its inputs.
 class Runner {
  public:
   Runner(const Parameters& parameters, Parameters* trained, const TrainingContext* context)
       : parameters_(parameters), trained_(trained), context_(context) {}
 
   Tensor operator()(const GraphNode& node, NodeId id, const std::vector<Tensor>& x) const {
-    return std::visit(
-        Overloaded{
-            [&](const InputLayer&) { return context_ == nullptr ? x[0].detached() : x[0]; },
-            [&](const Conv2dLayer& l) {
-              return finished(node, l, ops::conv2d(x[0], get(node, "kernel"), conv_options(l)));
-            },
-            [&](const DepthwiseConv2dLayer& l) {
-              return finished(node, l, ops::depthwise_conv2d(x[0], get(node, "depthwise_kernel"), conv_options(l)));
-            },
-            [&](const SeparableConv2dLayer& l) {
-              return finished(node, l,
-                              ops::separable_conv2d(x[0], get(node, "depthwise_kernel"), get(node, "pointwise_kernel"),
-                                                    conv_options(l)));
-            },
-            [&](const DenseLayer& l) {
-              return finished(
-                  node, l,
-                  ops::dense(x[0], get(node, "kernel"), context_ == nullptr ? nullptr : context_->communicator));
-            },
-            [&](const BatchNormLayer& l) { return batch_norm(node, l, x[0]); },
-            [&](const ActivationLayer& l) { return activated(x[0], l.activation); },
-            [&](const Pool2dLayer& l) {
-              return l.kind == PoolKind::max ? ops::max_pool2d(x[0], l.window) : ops::average_pool2d(x[0], l.window);
-            },
-            [&](const GlobalPool2dLayer& l) {
-              Tensor y = l.kind == PoolKind::max ? ops::global_max_pool2d(x[0]) : ops::global_average_pool2d(x[0]);
-              return l.keep_dimensions ? ops::reshape(y, {y.dim(0), 1, 1, y.dim(1)}) : y;
-            },
-            [&](const ZeroPadding2dLayer& l) { return ops::zero_padding2d(x[0], l.padding); },
-            [&](const AddLayer&) { return ops::add(x); }, [&](const ConcatLayer&) { return ops::concat(x); },
-            [&](const FlattenLayer&) { return ops::flatten(x[0]); },
-            [&](const ReshapeLayer& l) {
-              Shape shape = l.shape;
-              shape.insert(shape.begin(), x[0].dim(0));
-              return ops::reshape(x[0], shape);
-            },
-            [&](const DropoutLayer& l) {
-              return context_ == nullptr
-                         ? x[0]
-                         : ops::dropout(x[0], l.rate,
-                                        {context_->seed, context_->step << 16 | static_cast<std::uint64_t>(id)});
-            }},
-        node.layer);
+    return std::visit([&](const auto& layer) { return run(layer, {node, id, x, x[0]}); }, node.layer);
   }
 
  private:
-  Tensor get(const GraphNode& node, const char* parameter) const {
-    const Tensor& value = parameters_.at(node.name + "/" + parameter);
-    return context_ == nullptr ? value.detached() : value;
+  struct At {
+    const GraphNode& node;
+    NodeId id;
+    const std::vector<Tensor>& inputs;
+    const Tensor& x;  // the first input
+  };
+
+  Tensor run(const InputLayer&, const At& at) const { return training() ? at.x : at.x.detached(); }
+
+  Tensor run(const Conv2dLayer& l, const At& at) const {
+    return with_bias_and_activation(l, at, ops::conv2d(at.x, get(at, "kernel"), conv_options(l)));
+  }
+
+  Tensor run(const DepthwiseConv2dLayer& l, const At& at) const {
+    return with_bias_and_activation(l, at, ops::depthwise_conv2d(at.x, get(at, "depthwise_kernel"), conv_options(l)));
+  }
+
+  Tensor run(const SeparableConv2dLayer& l, const At& at) const {
+    return with_bias_and_activation(
+        l, at, ops::separable_conv2d(at.x, get(at, "depthwise_kernel"), get(at, "pointwise_kernel"), conv_options(l)));
+  }
+
+  Tensor run(const DenseLayer& l, const At& at) const {
+    return with_bias_and_activation(l, at,
+                                    ops::dense(at.x, get(at, "kernel"), training() ? context_->communicator : nullptr));
+  }
+
+  Tensor run(const BatchNormLayer& l, const At& at) const {
+    const Tensor gamma = get(at, "gamma"), beta = get(at, "beta");
+    if (!training())
+      return ops::batch_norm_inference(at.x, gamma, beta, get(at, "moving_mean"), get(at, "moving_variance"),
+                                       l.options.epsilon);
+    return ops::batch_norm_training(at.x, gamma, beta, trained_->at(at.node.name + "/moving_mean"),
+                                    trained_->at(at.node.name + "/moving_variance"), l.options);
+  }
+
+  Tensor run(const ActivationLayer& l, const At& at) const { return ops::activation(at.x, l.activation); }
+
+  Tensor run(const Pool2dLayer& l, const At& at) const {
+    return l.kind == PoolKind::max ? ops::max_pool2d(at.x, l.window) : ops::average_pool2d(at.x, l.window);
+  }
+
+  Tensor run(const GlobalPool2dLayer& l, const At& at) const {
+    const Tensor y = l.kind == PoolKind::max ? ops::global_max_pool2d(at.x) : ops::global_average_pool2d(at.x);
+    return l.keep_dimensions ? ops::reshape(y, {y.dim(0), 1, 1, y.dim(1)}) : y;
+  }
+
+  Tensor run(const ZeroPadding2dLayer& l, const At& at) const { return ops::zero_padding2d(at.x, l.padding); }
+  Tensor run(const AddLayer&, const At& at) const { return ops::add(at.inputs); }
+  Tensor run(const MultiplyLayer&, const At& at) const { return ops::multiply(at.inputs[0], at.inputs[1]); }
+  Tensor run(const ConcatLayer&, const At& at) const { return ops::concat(at.inputs); }
+  Tensor run(const FlattenLayer&, const At& at) const { return ops::flatten(at.x); }
+
+  Tensor run(const ReshapeLayer& l, const At& at) const {
+    Shape shape = l.shape;
+    shape.insert(shape.begin(), at.x.dim(0));
+    return ops::reshape(at.x, shape);
+  }
+
+  Tensor run(const DropoutLayer& l, const At& at) const {
+    if (!training()) return at.x;
+    return ops::dropout(at.x, l.rate, {context_->seed, context_->step << 16 | static_cast<std::uint64_t>(at.id)});
+  }
+
+  bool training() const { return context_ != nullptr; }
+
+  Tensor get(const At& at, const char* parameter) const {
+    const Tensor& value = parameters_.at(at.node.name + "/" + parameter);
+    return training() ? value : value.detached();
   }
 
   static ops::ConvOptions conv_options(const auto& layer) {
     return {.stride_h = layer.stride_h, .stride_w = layer.stride_w, .padding = layer.padding};
   }
 
-  Tensor finished(const GraphNode& node, const auto& layer, const Tensor& y) const {
-    return activated(layer.bias ? ops::bias_add(y, get(node, "bias")) : y, layer.activation);
-  }
-
-  Tensor batch_norm(const GraphNode& node, const BatchNormLayer& layer, const Tensor& x) const {
-    if (context_ == nullptr)
-      return ops::batch_norm_inference(x, get(node, "gamma"), get(node, "beta"), get(node, "moving_mean"),
-                                       get(node, "moving_variance"), layer.options.epsilon);
-    return ops::batch_norm_training(x, get(node, "gamma"), get(node, "beta"), trained_->at(node.name + "/moving_mean"),
-                                    trained_->at(node.name + "/moving_variance"), layer.options);
+  Tensor with_bias_and_activation(const auto& layer, const At& at, const Tensor& y) const {
+    return ops::activation(layer.bias ? ops::bias_add(y, get(at, "bias")) : y, layer.activation);
   }
 
   const Parameters& parameters_;

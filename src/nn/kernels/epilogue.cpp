@@ -1,7 +1,5 @@
 #include "nn/kernels/epilogue.h"
 
-#include <limits>
-
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/epilogue.cpp"
 #include <hwy/foreach_target.h>
@@ -43,20 +41,18 @@ HWY_EXPORT(bias_clamp_rows);
 
 void apply(const Epilogue<float>& epilogue, Index rows, Index columns, Index stride, float* y) {
   if (epilogue.empty()) return;
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  HWY_DYNAMIC_DISPATCH(bias_clamp_rows)
-  (epilogue.bias, epilogue.clamp == Clamp::none ? -kInfinity : 0.0f, epilogue.clamp == Clamp::relu6 ? 6.0f : kInfinity,
-   rows, columns, stride, y);
+  const auto [low, high] = range_of(epilogue.clamp);
+  HWY_DYNAMIC_DISPATCH(bias_clamp_rows)(epilogue.bias, low, high, rows, columns, stride, y);
 }
 
 template <class T>
 void apply_reference(const Epilogue<T>& epilogue, Index rows, Index columns, Index stride, T* y) {
+  const auto range = range_of<T>(epilogue.clamp);
   for (Index row = 0; row < rows; ++row)
     for (Index c = 0; c < columns; ++c) {
       T& value = y[row * stride + c];
       if (epilogue.bias != nullptr) value += epilogue.bias[c];
-      if (epilogue.clamp != Clamp::none && value < T{0}) value = T{0};
-      if (epilogue.clamp == Clamp::relu6 && value > T{6}) value = T{6};
+      value = range.clamped(value);
     }
 }
 template void apply_reference<float>(const Epilogue<float>&, Index, Index, Index, float*);

@@ -1,10 +1,34 @@
 #pragma once
+#include <limits>
+
 #include "base/index.h"
 
 namespace svnet::kernels {
 
-/// What is applied to each number last. NaN stays NaN.
+/// What is applied to each element last. NaN stays NaN.
 enum class Clamp { none, relu, relu6 };
+
+/// The elements that a clamp leaves unchanged: low <= y <= high.
+template <class T>
+struct ClampRange {
+  T low, high;
+
+  constexpr T clamped(T y) const { return y < low ? low : y > high ? high : y; }
+};
+
+template <class T = float>
+constexpr ClampRange<T> range_of(Clamp clamp) {
+  constexpr T kInfinity = std::numeric_limits<T>::infinity();
+  switch (clamp) {
+    case Clamp::none:
+      break;
+    case Clamp::relu:
+      return {T{0}, kInfinity};
+    case Clamp::relu6:
+      return {T{0}, T{6}};
+  }
+  return {-kInfinity, kInfinity};
+}
 
 /// What a kernel does to its output (…, K) while it is still in cache: y = clamp(y + bias), bias (K) or nullptr.
 template <class T>

@@ -1,4 +1,5 @@
 #pragma once
+#include "base/enum_names.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -18,10 +19,14 @@ struct Padding {
   bool operator==(const Padding&) const = default;
 };
 
-/// A window that slides over images x (N, H, W, C) and gives (N, OH, OW, …): what convolution and pooling share.
-/// Sizes of windows, strides and paddings are below it, so that sums of them fit.
+template <>
+inline constexpr auto enum_names<Padding::Kind> = std::to_array<EnumName<Padding::Kind>>(
+    {{Padding::Kind::valid, "valid"}, {Padding::Kind::same, "same"}, {Padding::Kind::explicit_, "explicit"}});
+
+/// Sizes of windows, strides and paddings are smaller, so that sums of them fit.
 constexpr Index kLargestWindow = Index{1} << 31;
 
+/// A window that slides over images x (N, H, W, C) and gives (N, OH, OW, …): what convolution and pooling share.
 /// Window (oh, ow) covers rows oh·stride_h − top + [0, kh) and columns ow·stride_w − left + [0, kw).
 struct Window {
   Index n, h, w, c;

@@ -7,61 +7,47 @@
 namespace svnet::ops {
 namespace {
 
+using kernels::Softmax;
+
 constexpr Index kChunk = 1 << 15;
 
-/// y = forward(x) elementwise; dx = dy · slope(y), so that only the output is kept for the backward.
-template <class Forward, class Slope>
-Tensor elementwise(const char* op, const Tensor& x, Forward forward, Slope slope) {
-  check_operands(op, {x});
-  Tensor y = Tensor::empty(x.shape(), x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() {
-    const T* from = x.data<T>();
-    T* to = y.data<T>();
-    pool().for_chunks(x.size(), kChunk, [&](Index begin, Index end, int) {
-      for (Index i = begin; i < end; ++i) to[i] = forward(from[i]);
-    });
+/// to[i] = body(i) for every element of `to`.
+template <class T, class Body>
+void fill(Tensor& to, const Body& body) {
+  T* values = to.data<T>();
+  pool().for_chunks(to.size(), kChunk, [&](Index begin, Index end, int) {
+    for (Index i = begin; i < end; ++i) values[i] = body(i);
   });
-  return autograd::record(y, {x}, [y, slope](const Tensor& dy, autograd::Gradients& g) {
-    Tensor dx = Tensor::empty(y.shape(), y.dtype());
-    with_dtype(y.dtype(), [&]<class T>() {
-      const T *value = y.data<T>(), *from = dy.data<T>();
-      T* to = dx.data<T>();
-      pool().for_chunks(y.size(), kChunk, [&](Index begin, Index end, int) {
-        for (Index i = begin; i < end; ++i) to[i] = from[i] * slope(value[i]);
+}
+
+template <class A>
+Tensor elementwise(const Tensor& x) {
+  Tensor y = Tensor::empty(x.shape(), x.dtype());
+  with_dtype(x.dtype(), [&]<class T>() { fill<T>(y, [from = x.data<T>()](Index i) { return A::value(from[i]); }); });
+  constexpr bool kFromOutput = requires { A::slope_at_output(0.0f); };
+  // Only the tensor that the slope depends on is kept for the backward.
+  const Tensor kept = kFromOutput ? y : x.detached();
+  return autograd::record(y, {x}, [kept](const Tensor& dy, autograd::Gradients& g) {
+    Tensor dx = Tensor::empty(kept.shape(), kept.dtype());
+    with_dtype(kept.dtype(), [&]<class T>() {
+      fill<T>(dx, [value = kept.data<T>(), from = dy.data<T>()](Index i) {
+        if constexpr (kFromOutput)
+          return from[i] * A::slope_at_output(value[i]);
+        else
+          return from[i] * A::slope_at_input(value[i]);
       });
     });
     g.add(0, dx);
   });
 }
 
-}  // namespace
-
-// The comparisons are written so that NaN stays NaN.
-Tensor relu(const Tensor& x) {
-  return elementwise(
-      "relu", x, []<class T>(T v) { return v < T{0} ? T{0} : v; }, []<class T>(T y) { return y > T{0} ? T{1} : T{0}; });
-}
-
-Tensor relu6(const Tensor& x) {
-  return elementwise(
-      "relu6", x, []<class T>(T v) { return v < T{0}   ? T{0}
-                                            : v > T{6} ? T{6}
-                                                       : v; },
-      []<class T>(T y) { return y > T{0} && y < T{6} ? T{1} : T{0}; });
-}
-
-Tensor sigmoid(const Tensor& x) {
-  return elementwise(
-      "sigmoid", x, []<class T>(T v) { return kernels::sigmoid(v); }, []<class T>(T y) { return y * (T{1} - y); });
-}
-
-Tensor softmax(const Tensor& x) {
-  const Index rows = leading("softmax", x), classes = x.dim(-1);
+Tensor rowwise_softmax(const char* op, const Tensor& x) {
+  const Index rows = leading(op, x), classes = x.dim(-1);
   Tensor y = Tensor::empty(x.shape(), x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
     pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
       for (Index row = begin; row < end; ++row)
-        kernels::softmax_row(classes, x.data<T>() + row * classes, y.data<T>() + row * classes);
+        Softmax::row(classes, x.data<T>() + row * classes, y.data<T>() + row * classes);
     });
   });
   return autograd::record(y, {x}, [=](const Tensor& dy, autograd::Gradients& g) {
@@ -77,6 +63,21 @@ Tensor softmax(const Tensor& x) {
       });
     });
     g.add(0, dx);
+  });
+}
+
+}  // namespace
+
+Tensor activation(const Tensor& x, Activation activation) {
+  const char* op = name_of(activation);
+  check_operands(op, {x});
+  return kernels::with_activation(activation, [&]<class A>(A) {
+    if constexpr (std::is_same_v<A, kernels::Linear>)
+      return x;
+    else if constexpr (std::is_same_v<A, Softmax>)
+      return rowwise_softmax(op, x);
+    else
+      return elementwise<A>(x);
   });
 }
 

@@ -1,15 +1,15 @@
 #pragma once
+#include "nn/kernels/activation/activation.h"
 #include "nn/tensor.h"
 
 namespace svnet::ops {
 
-/// max(x, 0), any shape; the gradient at 0 is 0.
-Tensor relu(const Tensor& x);
-/// min(max(x, 0), 6), any shape; the gradient at 0 and at 6 is 0.
-Tensor relu6(const Tensor& x);
-/// 1 / (1 + exp(−x)), any shape.
-Tensor sigmoid(const Tensor& x);
-/// exp(x) / Σ exp(x) over the last axis, shifted by the largest value so that it never overflows.
-Tensor softmax(const Tensor& x);
+/// x of any shape under the activation; softmax is taken over the last axis.
+Tensor activation(const Tensor& x, Activation activation);
+
+inline Tensor relu(const Tensor& x) { return activation(x, Activation::relu); }
+inline Tensor relu6(const Tensor& x) { return activation(x, Activation::relu6); }
+inline Tensor sigmoid(const Tensor& x) { return activation(x, Activation::sigmoid); }
+inline Tensor softmax(const Tensor& x) { return activation(x, Activation::softmax); }
 
 }  // namespace svnet::ops

@@ -5,6 +5,7 @@
 
 #include "nn/autograd.h"
 #include "nn/kernels/batch_norm/batch_norm.h"
+#include "nn/kernels/batch_norm/channel_norm.h"
 #include "nn/ops/checks.h"
 
 namespace svnet::ops {
@@ -28,7 +29,7 @@ Tensor inverse_deviation(const Tensor& variance, double epsilon) {
   return inverse;
 }
 
-/// x·scale + shift with scale = gamma · inverse and shift = beta − mean · scale.
+/// The batch norm of x (…, C) with mean (C) and inverse = 1 / √(variance + ε) (C).
 Tensor normalised(const Tensor& x, const Tensor& gamma, const Tensor& beta, const Tensor& mean, const Tensor& inverse,
                   Index rows) {
   const Index channels = x.dim(-1);
@@ -36,9 +37,11 @@ Tensor normalised(const Tensor& x, const Tensor& gamma, const Tensor& beta, cons
   with_dtype(x.dtype(), [&]<class T>() {
     std::vector<T> scale(static_cast<std::size_t>(channels)), shift(scale.size());
     for (Index c = 0; c < channels; ++c) {
-      const double s = static_cast<double>(gamma.data<T>()[c]) * inverse.data<T>()[c];
-      scale[static_cast<std::size_t>(c)] = static_cast<T>(s);
-      shift[static_cast<std::size_t>(c)] = static_cast<T>(beta.data<T>()[c] - mean.data<T>()[c] * s);
+      const kernels::ChannelNorm norm{.mean = mean.data<T>()[c],
+                                      .scale = static_cast<double>(gamma.data<T>()[c]) * inverse.data<T>()[c],
+                                      .beta = beta.data<T>()[c]};
+      scale[static_cast<std::size_t>(c)] = static_cast<T>(norm.scale);
+      shift[static_cast<std::size_t>(c)] = static_cast<T>(norm.shift());
     }
     kernels::scale_shift(pool(), {.rows = rows, .channels = channels}, x.data<T>(), scale.data(), shift.data(),
                          kernels::Clamp::none, y.data<T>());
@@ -46,7 +49,8 @@ Tensor normalised(const Tensor& x, const Tensor& gamma, const Tensor& beta, cons
   return y;
 }
 
-void follow(Tensor& moving, const Tensor& batch, double correction, const BatchNormOptions& o) {
+/// Moves `moving` towards correction · batch.
+void update_moving_statistics(Tensor& moving, const Tensor& batch, double correction, const BatchNormOptions& o) {
   const double keep = o.convention == MomentumConvention::keras ? o.momentum : 1 - o.momentum;
   with_dtype(moving.dtype(), [&]<class T>() {
     for (Index c = 0; c < moving.size(); ++c)
@@ -106,8 +110,9 @@ Tensor batch_norm_training(const Tensor& x, const Tensor& gamma, const Tensor& b
     kernels::moments<T>(pool(), {.rows = rows, .channels = channels}, x.data<T>(), mean.data<T>(), variance.data<T>());
   });
   const auto n = static_cast<double>(rows);
-  follow(moving_mean, mean, 1.0, options);
-  follow(moving_variance, variance, options.convention == MomentumConvention::pytorch ? n / (n - 1) : 1.0, options);
+  update_moving_statistics(moving_mean, mean, 1.0, options);
+  update_moving_statistics(moving_variance, variance,
+                           options.convention == MomentumConvention::pytorch ? n / (n - 1) : 1.0, options);
 
   const Tensor inverse = inverse_deviation(variance, options.epsilon);
   return autograd::record(

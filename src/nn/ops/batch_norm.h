@@ -1,18 +1,8 @@
 #pragma once
+#include "nn/batch_norm_options.h"
 #include "nn/tensor.h"
 
 namespace svnet::ops {
-
-/// How moving statistics follow the batch's.
-/// keras: moving = momentum · moving + (1 − momentum) · batch, with the biased variance (momentum near 1).
-/// pytorch: moving = (1 − momentum) · moving + momentum · batch, with the unbiased variance (momentum near 0).
-enum class MomentumConvention { keras, pytorch };
-
-struct BatchNormOptions {
-  double momentum = 0.99;
-  double epsilon = 1e-3;
-  MomentumConvention convention = MomentumConvention::keras;
-};
 
 /// Per channel of the last axis: (x − mean) / √(variance + ε) · gamma + beta with the batch's mean and biased variance.
 /// x is (M, C) or (N, H, W, C), gamma, beta and the moving statistics (C). The moving statistics are updated in place.

@@ -11,9 +11,10 @@ namespace svnet::ops {
 namespace {
 constexpr Index kFewRows = 64;
 
-/// multiply(parallel, y) fills y (rows, columns), in chunks that write apart.
+/// The tensor y (rows, columns) that multiply(parallel, y) fills in chunks that write to separate elements. With a
+/// communicator each process computes a share of the chunks and receives the others.
 template <class Multiply>
-Tensor made_together(Communicator* communicator, Index rows, Index columns, DType dtype, const Multiply& multiply) {
+Tensor shared_product(Communicator* communicator, Index rows, Index columns, DType dtype, const Multiply& multiply) {
   if (communicator == nullptr || communicator->size() == 1) {
     Tensor y = Tensor::empty({rows, columns}, dtype);
     multiply(pool(), y);
@@ -34,21 +35,23 @@ Tensor dense(const Tensor& x, const Tensor& w, Communicator* communicator) {
         shapes(x, w));
   check(x.dim(1) == w.dim(0), "[dense] input has ", x.dim(1), " features, weight expects ", w.dim(0), " (",
         shapes(x, w), ")");
-  const Index m = x.dim(0), c = x.dim(1), k = w.dim(1);
-  const Tensor y = made_together(communicator, m, k, x.dtype(), [&](Parallel& parallel, Tensor& to) {
+  const Index rows = x.dim(0), features = x.dim(1), units = w.dim(1);
+  const Tensor y = shared_product(communicator, rows, units, x.dtype(), [&](Parallel& parallel, Tensor& to) {
     with_dtype(x.dtype(), [&]<class T>() {
-      // Few rows use each weight seldom: what counts is how fast the weights come from memory.
+      // Few rows use each weight only a few times: the speed of reading the weights from memory decides.
       if constexpr (std::is_same_v<T, float>)
-        if (m <= kFewRows) return kernels::streamed_gemm(parallel, {m, k, c}, x.data<T>(), w.data<T>(), to.data<T>());
-      kernels::gemm(parallel, {.m = m, .n = k, .k = c}, x.data<T>(), w.data<T>(), to.data<T>());
+        if (rows <= kFewRows)
+          return kernels::streamed_gemm(parallel, {.m = rows, .n = units, .k = features}, x.data<T>(), w.data<T>(),
+                                        to.data<T>());
+      kernels::gemm(parallel, {.m = rows, .n = units, .k = features}, x.data<T>(), w.data<T>(), to.data<T>());
     });
   });
   return autograd::record(y, {x, w}, [=, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
     if (g.wants(0))
-      g.add(0, made_together(communicator, m, c, x.dtype(), [&](Parallel& parallel, Tensor& dx) {
+      g.add(0, shared_product(communicator, rows, features, x.dtype(), [&](Parallel& parallel, Tensor& dx) {
               with_dtype(dy.dtype(), [&]<class T>() {
-                kernels::gemm(parallel, {.m = m, .n = c, .k = k, .transpose_b = true}, dy.data<T>(), w.data<T>(),
-                              dx.data<T>());
+                kernels::gemm(parallel, {.m = rows, .n = features, .k = units, .transpose_b = true}, dy.data<T>(),
+                              w.data<T>(), dx.data<T>());
               });
             }));
     if (g.wants(1)) g.add_product(1, x, dy);

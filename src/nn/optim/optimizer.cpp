@@ -18,4 +18,24 @@ void Optimizer::restore(const std::vector<Tensor>& saved, std::int64_t done) {
   steps = done;
 }
 
+std::unique_ptr<Optimizer> make_optimizer(std::vector<Tensor> parameters, const OptimizerOptions& options) {
+  switch (options.kind) {
+    case OptimizerKind::adam:
+      return adam(std::move(parameters));
+    case OptimizerKind::sgd:
+      return sgd(std::move(parameters), {.momentum = options.momentum});
+  }
+  return nullptr;
+}
+
+int moments(OptimizerKind kind) {
+  switch (kind) {
+    case OptimizerKind::adam:
+      return 2;
+    case OptimizerKind::sgd:
+      return 1;
+  }
+  return 0;
+}
+
 }  // namespace svnet

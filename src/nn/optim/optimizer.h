@@ -2,6 +2,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "nn/autograd.h"
 #include "nn/tensor.h"
 
@@ -36,5 +37,19 @@ struct SgdOptions {
   double momentum = 0;
 };
 std::unique_ptr<Optimizer> sgd(std::vector<Tensor> parameters, const SgdOptions& options = {});
+
+enum class OptimizerKind { adam, sgd };
+template <>
+inline constexpr auto enum_names<OptimizerKind> = std::to_array<EnumName<OptimizerKind>>({{OptimizerKind::adam, "adam"},
+                                                                                          {OptimizerKind::sgd, "sgd"}});
+
+/// The optimizer that a kind names.
+struct OptimizerOptions {
+  OptimizerKind kind = OptimizerKind::adam;
+  double momentum = 0.9;  ///< sgd
+};
+std::unique_ptr<Optimizer> make_optimizer(std::vector<Tensor> parameters, const OptimizerOptions& options);
+/// How many tensors of each parameter's shape are in state(): all of the first, then all of the second.
+int moments(OptimizerKind kind);
 
 }  // namespace svnet

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
 
+#include "base/enum_names.h"
+
 namespace svnet {
 
 /// The learning rate of each training step.
@@ -17,5 +19,9 @@ struct Schedule {
 
   double at(std::int64_t step) const;
 };
+
+template <>
+inline constexpr auto enum_names<Schedule::Kind> = std::to_array<EnumName<Schedule::Kind>>(
+    {{Schedule::Kind::constant, "constant"}, {Schedule::Kind::step, "step"}, {Schedule::Kind::cosine, "cosine"}});
 
 }  // namespace svnet

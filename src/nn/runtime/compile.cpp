@@ -2,19 +2,21 @@
 
 #include <algorithm>
 #include <cassert>
-#include <cmath>
 #include <optional>
 
+#include "nn/kernels/batch_norm/channel_norm.h"
+#include "nn/kernels/multiply/multiply.h"
 #include "nn/runtime/folding.h"
 #include "nn/runtime/fusion.h"
+#include "nn/runtime/plain_step.h"
 
 namespace svnet::runtime {
 namespace {
 
 using kernels::Clamp;
 
-/// Compiles a folded graph: every node that is not fused into its reader becomes a step, which takes along what is
-/// fused into it.
+/// Compiles a folded graph. Every node that is not fused into its reader becomes a step, together with the nodes that
+/// are fused into it. There is one `emit_step` for each layer.
 class Compiler {
  public:
   Compiler(const Graph& graph, const Parameters& parameters, Convolution convolution, Precision precision)
@@ -52,8 +54,8 @@ class Compiler {
     return layer.bias ? get(id, "bias") : Tensor{};
   }
 
-  ValueId new_value(Index numbers) {
-    program_.sizes.push_back(numbers);
+  ValueId new_value(Index elements) {
+    program_.sizes.push_back(elements);
     return static_cast<ValueId>(program_.sizes.size()) - 1;
   }
   /// A step that computes the value of `id`.
@@ -63,28 +65,28 @@ class Compiler {
     program_.steps.push_back({node(id).name, std::move(step), std::move(inputs), value_[at(id)]});
   }
 
-  /// The layer that a step is built around, and what is done to its result: known as that of `last`, the last of what
-  /// is fused with it.
+  /// One step to emit: the layer `main`, and what its kernel also does to the result. The step computes the value of
+  /// `last`, the last of the nodes that are fused into it.
   struct Fused {
     NodeId last, main;
     ConvolutionFinish finish{};
     std::optional<ValueId> residual{};
 
-    /// Takes the layer's own activation along, or gives back one that the kernel cannot apply.
+    /// Lets the kernel apply the layer's own activation if it can. Returns the activation that is left to do.
     Activation take(Activation activation) {
-      const auto clamp = clamp_of(activation);
+      const auto clamp = kernels::clamp_of(activation);
       if (clamp && finish.clamp == Clamp::none) finish.clamp = *clamp;
       return clamp ? Activation::none : activation;
     }
   };
-  /// The value that the step reads, and the residual.
+  /// The value of `from`, which the step reads, and the residual if there is one.
   std::vector<ValueId> inputs(const Fused& f, NodeId from) const {
     std::vector<ValueId> values{value_[at(from)]};
     if (f.residual) values.push_back(*f.residual);
     return values;
   }
 
-  /// The step of a node that is not fused into another.
+  /// The step of a node that is not fused into another: goes back from the last fused node to the main layer.
   void emit(NodeId id) {
     Fused f{.last = id, .main = id};
     if (node(f.main).is<Pool2dLayer>() && fusion_.fused(input(f.main))) {
@@ -92,16 +94,20 @@ class Compiler {
       f.main = input(f.main);
     }
     if (const auto* a = node(f.main).as<ActivationLayer>(); a != nullptr && fusion_.fused(input(f.main))) {
-      f.finish.clamp = *clamp_of(a->activation);
+      f.finish.clamp = *kernels::clamp_of(a->activation);
       f.main = input(f.main);
     }
-    if (node(f.main).is<AddLayer>())
-      emit_add(f);
-    else
-      emit_layer(f);
+    emit_layer(f);
   }
 
-  void emit_add(Fused f) {
+  void emit_layer(const Fused& f) {
+    std::visit([&](const auto& layer) { emit_step(f, layer); }, node(f.main).layer);
+  }
+
+  void emit_step(const Fused&, const InputLayer&) {}
+
+  /// A sum of two may be the residual of the layer that computes one of them.
+  void emit_step(Fused f, const AddLayer&) {
     const auto& terms = node(f.main).inputs;
     std::vector<ValueId> values;
     for (std::size_t i = 0; i < terms.size(); ++i) {
@@ -116,8 +122,18 @@ class Compiler {
     push(f.last, add_step(size(f.main), values.size(), f.finish.clamp), values);
   }
 
-  void emit_layer(const Fused& f) {
-    std::visit([&](const auto& layer) { emit_step(f, layer); }, node(f.main).layer);
+  void emit_step(const Fused& f, const MultiplyLayer&) {
+    const auto& factors = node(f.main).inputs;
+    const bool swapped = size(factors[0]) < size(factors[1]);
+    const NodeId x = factors[swapped ? 1 : 0], factor = factors[swapped ? 0 : 1];
+    const Index columns = node(x).shape.empty() ? 1 : channels(x);
+    const Index positions = size(x) / columns;
+    const bool per_channel = size(factor) < size(x);
+    const auto body = [=](const StepBuffers& b) {
+      const kernels::MultiplyShape shape{b.batch, positions, columns, per_channel};
+      kernels::multiply(b.parallel, shape, b.inputs[0], b.inputs[1], b.output);
+    };
+    push(f.last, plain_step("multiply", size(x), body), {value_[at(x)], value_[at(factor)]});
   }
 
   void emit_step(Fused f, const Conv2dLayer& l) {
@@ -132,21 +148,21 @@ class Compiler {
     activate(f.last, rest);
   }
 
-  /// A pointwise convolution with the depthwise one before it, and what makes that one's image if it is fused, too.
+  /// A pointwise convolution with the depthwise one before it, and with the expansion before that if it is fused, too.
   void emit_separable(const Fused& f, const Conv2dLayer& pointwise) {
     const NodeId first = input(f.main), from = fusion_.source(first);
     const auto& d = *node(first).as<DepthwiseConv2dLayer>();
     const DepthwisePart depthwise{.kernel = get(first, "depthwise_kernel"),
                                   .bias = bias(first, d),
                                   .relu_input = fusion_.relu_before(first),
-                                  .clamp = *clamp_of(d.activation)};
+                                  .clamp = *kernels::clamp_of(d.activation)};
     const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, pointwise);
     const Window window = fusion_.window(first, d);
     if (!fusion_.fused(from))
       return push(f.last, separable_step(window, depthwise, kernel, own_bias, f.finish, precision_), inputs(f, from));
     const auto& e = *node(from).as<Conv2dLayer>();
     const ExpansionPart expansion{
-        .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *clamp_of(e.activation)};
+        .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *kernels::clamp_of(e.activation)};
     push(f.last, expanded_separable_step(window, expansion, depthwise, kernel, own_bias, f.finish, precision_),
          inputs(f, fusion_.source(from)));
   }
@@ -204,9 +220,10 @@ class Compiler {
                  variance = get(id, "moving_variance");
     Tensor scale = Tensor::empty({gamma.size()}), shift = Tensor::empty({gamma.size()});
     for (Index c = 0; c < gamma.size(); ++c) {
-      const double factor = gamma.data<float>()[c] / std::sqrt(variance.data<float>()[c] + l.options.epsilon);
-      scale.data<float>()[c] = static_cast<float>(factor);
-      shift.data<float>()[c] = static_cast<float>(beta.data<float>()[c] - mean.data<float>()[c] * factor);
+      const auto norm = kernels::channel_norm(gamma.data<float>()[c], beta.data<float>()[c], mean.data<float>()[c],
+                                              variance.data<float>()[c], l.options.epsilon);
+      scale.data<float>()[c] = static_cast<float>(norm.scale);
+      shift.data<float>()[c] = static_cast<float>(norm.shift());
     }
     push(f.last, scale_shift_step(size(id) / gamma.size(), scale, shift, Clamp::none), inputs(f, input(id)));
   }
@@ -234,8 +251,6 @@ class Compiler {
   void emit_step(const Fused& f, const FlattenLayer&) { alias(f.last); }
   void emit_step(const Fused& f, const ReshapeLayer&) { alias(f.last); }
   void emit_step(const Fused& f, const DropoutLayer&) { alias(f.last); }
-  void emit_step(const Fused&, const InputLayer&) {}
-  void emit_step(const Fused&, const AddLayer&) {}
 
   /// The node's value is that of its input, in memory too.
   void alias(NodeId id) { value_[at(id)] = value_[at(input(id))]; }
@@ -243,16 +258,11 @@ class Compiler {
   void activate(NodeId id, Activation activation) {
     if (activation == Activation::none) return;
     const ValueId from = value_[at(id)];
-    const Index count = size(id), last = node(id).shape.empty() ? 1 : channels(id);
-    if (const auto clamp = clamp_of(activation))
-      push(id, clamp_step(count, *clamp), {from});
-    else if (activation == Activation::sigmoid)
-      push(id, sigmoid_step(count), {from});
-    else
-      push(id, softmax_step(count / last, last), {from});
+    const Index columns = node(id).shape.empty() ? 1 : channels(id);
+    push(id, activation_step(size(id) / columns, columns, activation), {from});
   }
 
-  /// The output must be written by a step, into memory of the caller's.
+  /// The output lies in the caller's memory, so a step must write it.
   void finish_output() {
     const NodeId output = graph_.output();
     program_.output_shape = node(output).shape;
@@ -266,7 +276,7 @@ class Compiler {
   const Parameters& parameters_;
   const Fusion fusion_;
   const Precision precision_;
-  std::vector<ValueId> value_;  // of each node
+  std::vector<ValueId> value_;  // of each node; -1 if it has none
   Program program_{};
 };
 

@@ -1,23 +1,20 @@
 #include "nn/runtime/folding.h"
 
-#include <cmath>
 #include <optional>
+
+#include "nn/kernels/activation/activation.h"
+#include "nn/kernels/batch_norm/channel_norm.h"
 
 namespace svnet {
 namespace {
 
-/// A layer that produces (…, K) by a kernel whose last axis, or last two together, are the K channels.
+/// A layer that a batch norm and an activation can be folded into.
 template <class L>
-constexpr bool kProducer = std::is_same_v<L, Conv2dLayer> || std::is_same_v<L, DepthwiseConv2dLayer> ||
-                           std::is_same_v<L, SeparableConv2dLayer> || std::is_same_v<L, DenseLayer>;
+concept Producer = requires {
+  L::kFoldingKernel;
+};
 
-/// The name of the parameter that scales with the output channels.
-const char* last_kernel(const Layer& layer) {
-  if (std::holds_alternative<DepthwiseConv2dLayer>(layer)) return "depthwise_kernel";
-  return std::holds_alternative<SeparableConv2dLayer>(layer) ? "pointwise_kernel" : "kernel";
-}
-
-/// The one node that reads `id`, if it is one and `id` is not an output.
+/// The node that reads `id`, if there is exactly one and `id` is not the output.
 std::optional<NodeId> only_reader(const Graph& graph, const std::vector<bool>& needed, NodeId id, NodeId output) {
   std::optional<NodeId> reader;
   if (id == output) return {};
@@ -32,7 +29,7 @@ std::optional<NodeId> only_reader(const Graph& graph, const std::vector<bool>& n
   return reader;
 }
 
-/// One producer and what is folded into it.
+/// A producer, and the batch norm and activation that are folded into it. `last` is the last of them.
 struct Chain {
   NodeId producer, last;
   std::optional<NodeId> norm;
@@ -41,15 +38,15 @@ struct Chain {
 
 Chain chain_from(const Graph& graph, const std::vector<bool>& needed, NodeId id, NodeId output) {
   Chain chain{.producer = id, .last = id, .norm = {}};
-  const bool active = std::visit(
+  const bool keeps_alone = std::visit(
       [](const auto& l) {
-        if constexpr (kProducer<std::decay_t<decltype(l)>>)
+        if constexpr (Producer<std::decay_t<decltype(l)>>)
           return l.activation != Activation::none;
         else
           return true;
       },
       graph.node(id).layer);
-  if (active) return chain;
+  if (keeps_alone) return chain;
   auto next = only_reader(graph, needed, id, output);
   if (next && std::holds_alternative<BatchNormLayer>(graph.node(*next).layer)) {
     chain.norm = chain.last = *next;
@@ -57,14 +54,14 @@ Chain chain_from(const Graph& graph, const std::vector<bool>& needed, NodeId id,
   }
   if (next)
     if (const auto* layer = graph.node(*next).as<ActivationLayer>();
-        layer != nullptr && (layer->activation == Activation::relu || layer->activation == Activation::relu6)) {
+        layer != nullptr && layer->activation != Activation::none && kernels::clamp_of(layer->activation)) {
       chain.activation = layer->activation;
       chain.last = *next;
     }
   return chain;
 }
 
-/// kernel (…, K) · scale (K) and bias · scale + shift, with scale = gamma / √(variance + ε), in double.
+/// Multiplies kernel (…, K) by the batch norm's scale (K) and replaces bias (K) by its norm.
 void fold_norm(const GraphNode& norm, const Parameters& from, const std::string& kernel_name,
                const std::string& bias_name, Parameters& to) {
   const double epsilon = std::get<BatchNormLayer>(norm.layer).options.epsilon;
@@ -75,13 +72,14 @@ void fold_norm(const GraphNode& norm, const Parameters& from, const std::string&
   const Index channels = norm.parameters[0].shape[0], rows = kernel.size() / channels;
   Tensor bias = to.contains(bias_name) ? to.at(bias_name).clone() : Tensor::zeros({channels});
   for (Index c = 0; c < channels; ++c) {
-    const double scale = value("gamma", c) / std::sqrt(value("moving_variance", c) + epsilon);
+    const auto at_channel = kernels::channel_norm(value("gamma", c), value("beta", c), value("moving_mean", c),
+                                                  value("moving_variance", c), epsilon);
     for (Index row = 0; row < rows; ++row) {
       float& w = kernel.data<float>()[row * channels + c];
-      w = static_cast<float>(w * scale);
+      w = static_cast<float>(w * at_channel.scale);
     }
     float& b = bias.data<float>()[c];
-    b = static_cast<float>((b - value("moving_mean", c)) * scale + value("beta", c));
+    b = static_cast<float>(at_channel(b));
   }
   to.set(kernel_name, kernel);
   to.set(bias_name, bias);
@@ -91,7 +89,7 @@ void fold_norm(const GraphNode& norm, const Parameters& from, const std::string&
 
 FoldedGraph folded(const Graph& graph, const Parameters& parameters, NodeId output) {
   const auto needed = graph.ancestors({output});
-  std::vector<NodeId> place(needed.size(), -1);  // of each original node's value in the result
+  std::vector<NodeId> place(needed.size(), -1);  // the node of the result that has the value of each original node
   FoldedGraph result;
   for (std::size_t i = 0; i < needed.size(); ++i) {
     if (!needed[i] || place[i] >= 0) continue;
@@ -103,9 +101,9 @@ FoldedGraph folded(const Graph& graph, const Parameters& parameters, NodeId outp
       result.parameters.set(name + "/" + spec.name, parameters.at(node.parameter_name(spec)).detached());
     std::visit(
         [&](auto& l) {
-          if constexpr (kProducer<std::decay_t<decltype(l)>>) {
+          if constexpr (Producer<std::decay_t<decltype(l)>>) {
             if (chain.norm) {
-              fold_norm(graph.node(*chain.norm), parameters, name + "/" + last_kernel(node.layer), name + "/bias",
+              fold_norm(graph.node(*chain.norm), parameters, name + "/" + l.kFoldingKernel, name + "/bias",
                         result.parameters);
               l.bias = true;
             }

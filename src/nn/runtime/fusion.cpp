@@ -5,7 +5,7 @@
 
 namespace svnet::runtime {
 
-using kernels::Clamp;
+using kernels::clamp_of;
 
 namespace {
 
@@ -16,19 +16,6 @@ bool is_plain_pointwise(const Conv2dLayer& l) {
 }
 
 }  // namespace
-
-std::optional<Clamp> clamp_of(Activation activation) {
-  switch (activation) {
-    case Activation::none:
-      return Clamp::none;
-    case Activation::relu:
-      return Clamp::relu;
-    case Activation::relu6:
-      return Clamp::relu6;
-    default:
-      return {};
-  }
-}
 
 Fusion::Fusion(const Graph& graph, Convolution convolution)
     : graph_(graph), convolution_(convolution), readers_(graph.nodes().size(), 0), fused_(graph.nodes().size(), false) {

@@ -1,19 +1,13 @@
 #pragma once
-#include <optional>
-#include <variant>
 #include <vector>
 
 #include "nn/graph/graph.h"
 #include "nn/kernels/convolution_choice.h"
-#include "nn/kernels/epilogue.h"
 #include "nn/kernels/window.h"
 
 namespace svnet::runtime {
 
 using kernels::Convolution;
-
-/// The clamp that an activation is, if it is one.
-std::optional<kernels::Clamp> clamp_of(Activation activation);
 
 /// Which nodes of a folded graph become part of the step of their only reader, and what that makes of the reader:
 /// paddings and ReLUs before a convolution, additions, activations and pools behind it, the two or three convolutions

@@ -36,9 +36,9 @@ Index samples_together(const runtime::Program& program, const runtime::MemoryPla
 }  // namespace
 
 /// An arena for the length of one run.
-class Inference::Loan {
+class Inference::ArenaLease {
  public:
-  Loan(const Inference& from, Index size) : from_(from) {
+  ArenaLease(const Inference& from, Index size) : from_(from) {
     for (auto& place : from_.free_)
       if (Arena* const kept = place.exchange(nullptr)) {
         arena_.reset(kept);
@@ -58,7 +58,7 @@ class Inference::Loan {
       arena_->size = size;
     }
   }
-  ~Loan() {
+  ~ArenaLease() {
     for (auto& place : from_.free_) {
       Arena* none = nullptr;
       if (place.compare_exchange_strong(none, arena_.get())) {
@@ -67,8 +67,8 @@ class Inference::Loan {
       }
     }
   }
-  Loan(const Loan&) = delete;
-  Loan& operator=(const Loan&) = delete;
+  ArenaLease(const ArenaLease&) = delete;
+  ArenaLease& operator=(const ArenaLease&) = delete;
   Arena& operator*() const { return *arena_; }
 
  private:
@@ -120,7 +120,7 @@ void Inference::run_step(const runtime::ProgramStep& step, std::span<const float
 }
 
 void Inference::run(std::span<const float* const> inputs, Index batch, float* output) const {
-  const Loan arena(*this, arena_size(batch));
+  const ArenaLease arena(*this, arena_size(batch));
   std::vector<const float*>& from = (*arena).group_inputs;
   for (Index begin = 0; begin < batch; begin += group_) {
     for (std::size_t i = 0; i < inputs.size(); ++i) from[i] = inputs[i] + begin * program_.sizes[i];
@@ -176,7 +176,7 @@ std::vector<StepReport> Inference::report(Index batch) const {
                        .bytes = 4 * numbers * samples + step.step->weight_bytes() * groups,
                        .milliseconds = std::numeric_limits<double>::infinity()});
   }
-  const Loan arena(*this, arena_size(batch));
+  const ArenaLease arena(*this, arena_size(batch));
   // Long enough to outlast the threads of OpenBLAS, which spin for some 30 ms after the process has started.
   const auto begin = Clock::now();
   for (int repeat = 0; repeat < 5 || Clock::now() - begin < std::chrono::milliseconds(200); ++repeat)

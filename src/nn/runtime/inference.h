@@ -58,7 +58,7 @@ class Inference {
     Index size = 0;
     std::vector<const float*> inputs{}, group_inputs{};  // of a step, of the graph
   };
-  class Loan;
+  class ArenaLease;
 
   void run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch, float* output,
                 Arena& arena) const;

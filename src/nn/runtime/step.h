@@ -4,6 +4,7 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "nn/kernels/activation/activation.h"
 #include "nn/kernels/epilogue.h"
 #include "nn/kernels/precision.h"
 #include "nn/kernels/window.h"
@@ -79,9 +80,8 @@ StepPointer pool_step(const Window& window, bool max);
 StepPointer add_step(Index size, std::size_t inputs, kernels::Clamp clamp);
 /// y = clamp(x · scale + shift), per channel of the last axis.
 StepPointer scale_shift_step(Index rows, const Tensor& scale, const Tensor& shift, kernels::Clamp clamp);
-StepPointer clamp_step(Index size, kernels::Clamp clamp);
-StepPointer sigmoid_step(Index size);
-StepPointer softmax_step(Index rows, Index classes);
+/// On rows of `columns` elements, over which softmax is taken.
+StepPointer activation_step(Index rows, Index columns, Activation activation);
 /// Along the last axis.
 StepPointer concat_step(Index rows, std::vector<Index> widths);
 /// A border of zeros around images (H, W, C).

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "designs.h"
-#include "looks.h"
+#include "simulation/catalogue/designs.h"
+#include "simulation/catalogue/looks.h"
 
 namespace svnet {
 namespace {

@@ -3,11 +3,11 @@
 
 #include "simulation/sculptor.h"
 
-// How the catalogue's categories are made: a table of designs each, and a function that builds one.
+// Each category of the catalogue is a table of designs and a function that builds an object from one.
 namespace svnet {
 
-/// The numbers that a category's function takes, in its own order (mostly millimetres), and its materials. Kinds are
-/// whole numbers, rounded where designs are mixed.
+/// The parameters of a category's function, in its own order and mostly in millimetres, and its materials. A parameter
+/// that selects a kind is an integer; mixed designs round it.
 struct Design {
   std::vector<float> number;
   std::vector<Material> look;

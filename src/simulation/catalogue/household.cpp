@@ -1,8 +1,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "designs.h"
-#include "looks.h"
+#include "simulation/catalogue/designs.h"
+#include "simulation/catalogue/looks.h"
 
 namespace svnet {
 namespace {

@@ -122,7 +122,7 @@ Config parse_config(const std::string& text, const std::string& source, const pa
   for (const auto& assignment : overrides) reader.read(parse_override(assignment), std::filesystem::current_path());
   check_together(config, reader);
   if (config.evaluation.pipelines.empty())
-    config.evaluation.pipelines = {joined(config.scores.backbone, "_", clustering_name(config.scores.clustering))};
+    config.evaluation.pipelines = {joined(config.scores.backbone, "_", name_of(config.scores.clustering))};
   return config;
 }
 

@@ -5,6 +5,12 @@
 #include <vector>
 
 #include "base/index.h"
+#include "models/sv_net.h"
+#include "nn/optim/optimizer.h"
+#include "nn/optim/schedule.h"
+#include "semantics/cluster_metrics.h"
+#include "semantics/clusterer.h"
+#include "train/config/choices.h"
 
 namespace svnet {
 
@@ -20,8 +26,6 @@ struct Config {
     std::filesystem::path folder;  ///< empty: built-in weights, or random ones
   };
   struct Scores {
-    enum class Clustering { ward, average, complete, single, kmeans };
-    enum class Singletons { zero, skip };
     std::string backbone = "xception";
     std::string layer;
     Clustering clustering = Clustering::ward;
@@ -33,39 +37,32 @@ struct Config {
     Singletons singletons = Singletons::zero;
   };
   struct SvNet {
-    enum class Angles { radians, sphere, harmonics };
-    enum class Target { individual, global };
-    enum class Orientations { as_taken, all };
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;
     double dropout = 0.75;
-    Angles angles = Angles::radians;
+    AngleEncoding angles = AngleEncoding::radians;
     Target target = Target::individual;
     Orientations orientations = Orientations::as_taken;
   };
   struct Training {
-    enum class Optimizer { adam, sgd };
-    enum class Schedule { constant, step, cosine };
-    enum class FineTune { none, last_block, all };
-    enum class Augmentation { none, turns };
     Index epochs = 10;
     Index batch_size = 32;
     double learning_rate = 1e-3;
-    Optimizer optimizer = Optimizer::adam;
+    OptimizerKind optimizer = OptimizerKind::adam;
     double momentum = 0.9;
-    Schedule schedule = Schedule::constant;
+    Schedule::Kind schedule = Schedule::Kind::constant;
     Index step_epochs = 5;
     double step_factor = 0.1;
     Index validation_categories = 0;
     FineTune fine_tune = FineTune::none;
-    Augmentation augmentation = Augmentation::none;
+    TopViewAugmentation augmentation = TopViewAugmentation::none;
   };
   struct Evaluation {
-    enum class Nmi { arithmetic, geometric };
     Index problems = 10000;
     std::vector<std::string> pipelines;  ///< empty only before parse_config has read the rest
-    Nmi nmi = Nmi::arithmetic;
+    std::vector<std::string> selectors;  ///< names of train/selectors.h; empty: the default ones of each table
+    NmiAverage nmi = NmiAverage::arithmetic;
   };
 
   Index seed = 0;
@@ -77,14 +74,10 @@ struct Config {
   Evaluation evaluation;
 };
 
-/// The name of a clustering, as the files and the pipelines write it ("ward"), and back; throws Error for another name.
-std::string clustering_name(Config::Scores::Clustering clustering);
-Config::Scores::Clustering clustering_from_name(const std::string& name);
-
 /// One of evaluation.pipelines: "mobilenet_v2_ward" is features of mobilenet_v2 clustered by ward.
 struct PipelineName {
   std::string backbone;
-  Config::Scores::Clustering clustering;
+  Clustering clustering;
 };
 /// Throws Error, beginning with `where`, unless `name` is BACKBONE_CLUSTERING.
 PipelineName parse_pipeline(const std::string& name, const std::string& where);

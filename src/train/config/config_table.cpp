@@ -9,8 +9,6 @@ namespace {
 using Names = std::vector<std::string>;
 using std::filesystem::path;
 
-const Names kClusterings{"ward", "average", "complete", "single", "kmeans"};  // in the order of the enumeration
-
 BoundKey whole(std::string name, Index& field, NumberRange range, std::string help) {
   return {std::move(name), std::move(help), described(range, true),
           [&field, range](const YamlValue& value, const path&) { field = yaml_whole_number(value, range); },
@@ -29,15 +27,11 @@ BoundKey text(std::string name, std::string& field, std::string accepts, std::st
           [&field](const path&) { return written_yaml(field); }};
 }
 
-/// `choices` in the order of the enumeration.
 template <class Enum>
-BoundKey choice(std::string name, Enum& field, Names choices, std::string help) {
-  const std::string accepts = described(choices);
-  return {std::move(name), std::move(help), accepts,
-          [&field, choices](const YamlValue& value, const path&) {
-            field = static_cast<Enum>(yaml_choice(value, choices));
-          },
-          [&field, choices](const path&) { return written_yaml(choices.at(static_cast<std::size_t>(field))); }};
+BoundKey choice(std::string name, Enum& field, std::string help) {
+  return {std::move(name), std::move(help), described(names_of<Enum>()),
+          [&field](const YamlValue& value, const path&) { field = yaml_choice<Enum>(value); },
+          [&field](const path&) { return written_yaml(std::string_view(name_of(field))); }};
 }
 
 BoundKey folder_path(std::string name, path& field, std::string accepts, std::string help) {
@@ -87,8 +81,7 @@ std::vector<BoundKey> bound_keys(Config& c) {
 
       text("scores.backbone", c.scores.backbone, backbone, "Backbone of the features that are clustered."),
       text("scores.layer", c.scores.layer, layer, "Layer whose output is clustered. Empty: the pooled output."),
-      choice("scores.clustering", c.scores.clustering, kClusterings,
-             "Agglomerative clustering by its linkage, or k-means."),
+      choice("scores.clustering", c.scores.clustering, "Agglomerative clustering by its linkage, or k-means."),
       whole("scores.min_samples", c.scores.min_samples, kProblems,
             "Stop once every view has been in at least N problems. 0: off."),
       whole("scores.problems", c.scores.problems, kProblems, "Stop after N problems. 0: off."),
@@ -100,59 +93,52 @@ std::vector<BoundKey> bound_keys(Config& c) {
       whole("scores.min_objects", c.scores.min_objects, kFromOne, "Fewest objects of a category in a problem."),
       whole("scores.max_objects", c.scores.max_objects, kNotNegative,
             "Most objects of a category in a problem. 0: all."),
-      choice("scores.singletons", c.scores.singletons, {"zero", "skip"},
+      choice("scores.singletons", c.scores.singletons,
              "A singleton scores zero, or is left out of the mean of individual scores."),
 
       text("sv_net.backbone", c.sv_net.backbone, backbone, "Backbone of the features of the top image."),
       text("sv_net.layer", c.sv_net.layer, layer, "Layer that feeds the head. Empty: the pooled output."),
       whole("sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
       number("sv_net.dropout", c.sv_net.dropout, kBelowOne, "Fraction of the activations that dropout sets to zero."),
-      choice("sv_net.angles", c.sv_net.angles, {"radians", "sphere", "harmonics"},
-             "Encoding of the camera pose for the head."),
-      choice("sv_net.target", c.sv_net.target, {"individual", "global"}, "Score that SV-net learns."),
-      choice("sv_net.orientations", c.sv_net.orientations, {"as_taken", "all"},
+      choice("sv_net.angles", c.sv_net.angles, "Encoding of the camera pose for the head."),
+      choice("sv_net.target", c.sv_net.target, "Score that SV-net learns."),
+      choice("sv_net.orientations", c.sv_net.orientations,
              "Score the top image as taken, or average over its eight orientations."),
 
       whole("training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
       whole("training.batch_size", c.training.batch_size, {.min = 2}, "Examples in a step."),
       number("training.learning_rate", c.training.learning_rate, kPositive, "Learning rate at the start."),
-      choice("training.optimizer", c.training.optimizer, {"adam", "sgd"}, "Optimizer."),
+      choice("training.optimizer", c.training.optimizer, "Optimizer."),
       number("training.momentum", c.training.momentum, kBelowOne, "Momentum; sgd only."),
-      choice("training.schedule", c.training.schedule, {"constant", "step", "cosine"},
-             "How the learning rate changes over the epochs."),
+      choice("training.schedule", c.training.schedule, "How the learning rate changes over the epochs."),
       whole("training.step_epochs", c.training.step_epochs, kFromOne, "Epochs between two steps; schedule step only."),
       number("training.step_factor", c.training.step_factor, {.min = 0, .max = 1, .min_open = true},
              "The learning rate is multiplied by this at each step; schedule step only."),
       whole("training.validation_categories", c.training.validation_categories, kNotNegative,
             "Training categories, drawn at random, that choose the best checkpoint. 0: none."),
-      choice("training.fine_tune", c.training.fine_tune, {"none", "last_block", "all"},
+      choice("training.fine_tune", c.training.fine_tune,
              "Part of sv_net.backbone that is trained together with the head."),
-      choice("training.augmentation", c.training.augmentation, {"none", "turns"},
+      choice("training.augmentation", c.training.augmentation,
              "turns: train on each top image in its eight orientations."),
 
       whole("evaluation.problems", c.evaluation.problems, kFromOne,
             "Number of problems that each table averages over."),
       pipelines("evaluation.pipelines", c.evaluation.pipelines,
                 "Pipelines of the tables. Empty: only the pipeline of the scores."),
-      choice("evaluation.nmi", c.evaluation.nmi, {"arithmetic", "geometric"},
-             "Mean that normalises NMI. The paper's tables use geometric."),
+      names("evaluation.selectors", c.evaluation.selectors,
+            "Selectors of the tables. Empty: the default ones of each table; svnet-eval --help lists all."),
+      choice("evaluation.nmi", c.evaluation.nmi, "Mean that normalises NMI. The paper's tables use geometric."),
   };
-}
-
-std::string clustering_name(Config::Scores::Clustering clustering) {
-  return kClusterings.at(static_cast<std::size_t>(clustering));
-}
-
-Config::Scores::Clustering clustering_from_name(const std::string& name) {
-  return static_cast<Config::Scores::Clustering>(choice_position("clustering", name, kClusterings));
 }
 
 PipelineName parse_pipeline(const std::string& name, const std::string& where) {
   const auto at = name.rfind('_');
   check(at != std::string::npos && at > 0, where, ": '", name,
-        "' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: ", joined_with(", ", kClusterings));
-  return {name.substr(0, at), static_cast<Config::Scores::Clustering>(
-                                  choice_position(where + ": " + name, name.substr(at + 1), kClusterings))};
+        "' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: ",
+        joined_with(", ", names_of<Clustering>()));
+  const std::string clustering = name.substr(at + 1);
+  check_choice(where + ": " + name, clustering, names_of<Clustering>());
+  return {name.substr(0, at), *find_enum<Clustering>(clustering)};
 }
 
 }  // namespace svnet

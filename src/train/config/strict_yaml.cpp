@@ -209,17 +209,17 @@ double yaml_number(const YamlValue& value, const NumberRange& range) {
   return number;
 }
 
-std::size_t choice_position(const std::string& where, const std::string& name, std::span<const std::string> choices) {
-  const auto at = std::find(choices.begin(), choices.end(), name);
+void check_choice(const std::string& where, const std::string& name, std::span<const std::string> choices) {
+  if (std::find(choices.begin(), choices.end(), name) != choices.end()) return;
   const std::string nearest = nearest_name(name, choices);
-  check(at != choices.end(), where, ": unknown value '", name, "', expected ", described(choices),
-        nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
-  return static_cast<std::size_t>(at - choices.begin());
+  fail(where, ": unknown value '", name, "', expected ", described(choices),
+       nearest.empty() ? "" : "; did you mean '" + nearest + "'?");
 }
 
-std::size_t yaml_choice(const YamlValue& value, std::span<const std::string> choices) {
+std::string yaml_choice(const YamlValue& value, std::span<const std::string> choices) {
   if (value.kind != Kind::scalar) fail_expected(value, described(choices));
-  return choice_position(value.where(), value.text, choices);
+  check_choice(value.where(), value.text, choices);
+  return value.text;
 }
 
 std::vector<std::string> yaml_texts(const YamlValue& value) {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/enum_names.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -48,9 +49,14 @@ std::string yaml_text(const YamlValue& value);
 /// Also takes 4e7, where that is a whole number.
 Index yaml_whole_number(const YamlValue& value, const NumberRange& range);
 double yaml_number(const YamlValue& value, const NumberRange& range);
-/// The position in `choices` of a name that stands at `where`.
-std::size_t choice_position(const std::string& where, const std::string& name, std::span<const std::string> choices);
-std::size_t yaml_choice(const YamlValue& value, std::span<const std::string> choices);
+/// The text of the value, which is one of `choices`.
+std::string yaml_choice(const YamlValue& value, std::span<const std::string> choices);
+template <class Enum>
+Enum yaml_choice(const YamlValue& value) {
+  return *find_enum<Enum>(yaml_choice(value, names_of<Enum>()));
+}
+/// Throws Error, beginning with `where`, unless `name` is one of `choices`.
+void check_choice(const std::string& where, const std::string& name, std::span<const std::string> choices);
 /// A list of texts, none twice.
 std::vector<std::string> yaml_texts(const YamlValue& value);
 

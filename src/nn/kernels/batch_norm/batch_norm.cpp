@@ -49,13 +49,12 @@ void column_sums(Parallel& parallel, const RowsShape& s, const T* a, const T* b,
 template <class T>
 void scale_shift_reference(Parallel& parallel, const RowsShape& s, const T* x, const T* scale, const T* shift,
                            Clamp clamp, T* y) {
+  const auto range = range_of<T>(clamp);
   parallel.for_chunks(s.rows, 64, [&](Index begin, Index end, int) {
     for (Index row = begin; row < end; ++row)
       for (Index c = 0; c < s.channels; ++c) {
-        T value = x[row * s.channels + c] * scale[c] + shift[c];
-        if (clamp != Clamp::none) value = std::max(value, T{0});
-        if (clamp == Clamp::relu6) value = std::min(value, T{6});
-        y[row * s.channels + c] = value;
+        const Index i = row * s.channels + c;
+        y[i] = range.clamped(x[i] * scale[c] + shift[c]);
       }
   });
 }

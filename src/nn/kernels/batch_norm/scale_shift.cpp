@@ -36,20 +36,17 @@ void scale_shift_rows(Index rows, Index channels, const float* x, const float* s
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-#include <limits>
-
 namespace svnet::kernels {
 
 HWY_EXPORT(scale_shift_rows);
 
 void scale_shift(Parallel& parallel, const RowsShape& s, const float* x, const float* scale, const float* shift,
                  Clamp clamp, float* y) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const float low = clamp == Clamp::none ? -kInfinity : 0.0f, high = clamp == Clamp::relu6 ? 6.0f : kInfinity;
+  const auto range = range_of(clamp);
   parallel.for_chunks(
       s.rows, std::max<Index>(1, 16384 / std::max<Index>(s.channels, 1)), [&](Index begin, Index end, int) {
         HWY_DYNAMIC_DISPATCH(scale_shift_rows)
-        (end - begin, s.channels, x + begin * s.channels, scale, shift, low, high, y + begin * s.channels);
+        (end - begin, s.channels, x + begin * s.channels, scale, shift, range.low, range.high, y + begin * s.channels);
       });
 }
 

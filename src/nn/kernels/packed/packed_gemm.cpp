@@ -3,7 +3,6 @@
 #include "nn/kernels/packed/packed_gemm.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -40,9 +39,7 @@ void multiply_some_panels(Index rows, const PanelRows& a, const PackedWeights& w
 
 void multiply_panels(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
                      const PackedFinish& finish, float* c) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  const float low = finish.clamp == Clamp::none ? -kInfinity : 0.0f;
-  const float high = finish.clamp == Clamp::relu6 ? 6.0f : kInfinity;
+  const auto [low, high] = range_of(finish.clamp);
   Index p = first;
   if constexpr (kTilePanels > 1)
     for (; p + kTilePanels <= last; p += kTilePanels)

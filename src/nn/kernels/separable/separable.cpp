@@ -3,7 +3,6 @@
 #include "nn/kernels/separable/separable.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -32,9 +31,9 @@ struct Bounds {
   PanelVector low, high;
 
   explicit HWY_INLINE Bounds(Clamp clamp) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    low = hn::Set(PanelTag(), clamp == Clamp::none ? -kInfinity : 0.0f);
-    high = hn::Set(PanelTag(), clamp == Clamp::relu6 ? 6.0f : kInfinity);
+    const auto range = range_of(clamp);
+    low = hn::Set(PanelTag(), range.low);
+    high = hn::Set(PanelTag(), range.high);
   }
 };
 

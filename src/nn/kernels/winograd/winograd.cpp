@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <limits>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -84,10 +83,9 @@ void multiply_points(const WinogradPlan& plan, Index tiles, const float* points,
 /// The outputs of tiles [first, last) in one panel of channels.
 void transform_outputs(const WinogradPlan& plan, const float* products, const float* bias, Index first, Index last,
                        Index panel, const WinogradFinish& finish, float* y) {
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   const PanelTag d;
-  const auto low = hn::Set(d, finish.clamp == Clamp::none ? -kInfinity : 0.0f);
-  const auto high = hn::Set(d, finish.clamp == Clamp::relu6 ? 6.0f : kInfinity);
+  const auto range = range_of(finish.clamp);
+  const auto low = hn::Set(d, range.low), high = hn::Set(d, range.high);
   const Window& w = plan.window;
   const Index shrink = finish.pool ? 2 : 1, oh = w.oh / shrink, ow = w.ow / shrink, side = 4 / shrink;
   for (Index tile = first; tile < last; ++tile) {

@@ -1,0 +1,43 @@
+#pragma once
+#include <span>
+#include <string>
+#include <vector>
+
+#include "image/image.h"
+
+namespace svnet {
+
+/// A picture in a square cell, at its centre, with a line of text below the cell.
+struct SheetCell {
+  Image picture;
+  std::string caption{};
+};
+
+/// Cells side by side, with a title above the first one.
+struct SheetGroup {
+  std::vector<SheetCell> cells;
+  std::string title{};
+};
+
+/// Groups side by side, with a label at their left.
+struct SheetLine {
+  std::vector<SheetGroup> groups;
+  std::string label{};
+};
+
+/// Lengths in pixels.
+struct SheetLayout {
+  Index cell;        ///< side of a cell; a larger or smaller picture is resized to fit
+  Index gap;         ///< after each cell
+  Index margin;      ///< around the sheet, after each group and after each line
+  Index text;        ///< height of the titles, and of the captions; 0 if there are none
+  double font_size;  ///< relative to OpenCV's FONT_HERSHEY_SIMPLEX
+};
+
+/// Pictures and texts on white. The widest line sets the width.
+Image contact_sheet(std::span<const SheetLine> lines, const SheetLayout& layout);
+
+/// The picture, as large as fits into a square of that side.
+Image resized_to_fit(const Image& picture, Index side);
+
+}  // namespace svnet

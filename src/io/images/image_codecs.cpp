@@ -1,0 +1,61 @@
+#include "io/images/image_codecs.h"
+
+#include <algorithm>
+#include <cerrno>
+#include <fstream>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace svnet {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uintmax_t kMaximumFileSize = std::uintmax_t{1} << 30;
+
+}  // namespace
+
+std::vector<std::uint8_t> picture_contents(const fs::path& path) {
+  const std::string name = path.string();
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  check(status.type() != fs::file_type::not_found, name, ": no such file");
+  check(!fs::is_directory(status), name, ": is a folder, expected a picture (PNG, JPEG or WebP)");
+  check(!fs::exists(status) || fs::is_regular_file(status), name, ": is not a regular file, expected a picture");
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  check(file.is_open(), name, ": cannot be read: ", std::generic_category().message(errno));
+  const std::uintmax_t size = fs::file_size(path, error);
+  check(!error, name, ": cannot be read: ", error.message());
+  check(size > 0, name, ": is empty, expected a picture (PNG, JPEG or WebP)");
+  check(size <= kMaximumFileSize, name, ": has ", size, " bytes, more than a picture of 64 megapixels needs");
+  std::vector<std::uint8_t> bytes(size);
+  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  check(static_cast<std::uintmax_t>(file.gcount()) == size, name,
+        ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
+  return bytes;
+}
+
+bool has_bytes(Bytes file, std::size_t offset, std::string_view expected) {
+  return file.size() >= offset + expected.size() &&
+         std::equal(expected.begin(), expected.end(), file.begin() + static_cast<std::ptrdiff_t>(offset),
+                    [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+void check_image_size(const std::string& name, Index height, Index width) {
+  check(height > 0 && width > 0, name, ": has no pixels (", width, "x", height, ")");
+  check(height <= kMostPixels / width, name, ": has ", width, "x", height,
+        " pixels, more than the 64 megapixels that are read; make it smaller");
+}
+
+Image image_of_size(const std::string& name, Index height, Index width) {
+  check_image_size(name, height, width);
+  return {height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * width * 3))};
+}
+
+void fail_damaged(const std::string& name, const char* kind, const std::string& reason) {
+  fail(name, ": is a damaged or incomplete ", kind, " picture (", reason, "); replace the file");
+}
+
+}  // namespace svnet

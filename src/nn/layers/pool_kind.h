@@ -1,0 +1,13 @@
+#pragma once
+#include "base/enum_names.h"
+
+namespace svnet {
+
+/// What a pool takes of each window.
+enum class PoolKind { max, average };
+
+template <>
+inline constexpr auto enum_names<PoolKind> = std::to_array<EnumName<PoolKind>>({{PoolKind::max, "max"},
+                                                                                {PoolKind::average, "average"}});
+
+}  // namespace svnet

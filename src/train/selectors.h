@@ -1,0 +1,56 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "data/view_dataset.h"
+
+namespace svnet {
+
+/// Chooses a view of each pose. `view`: per pose of the dataset, the index of the chosen view. Empty: a random view,
+/// drawn for each problem.
+struct Selector {
+  std::string name;
+  std::vector<std::int32_t> view;
+};
+
+/// Semantic scores of every view; NaN for views of categories that take no part.
+struct ViewScores {
+  std::span<const double> individual, global;
+};
+
+/// What selectors can choose by.
+struct SelectorInputs {
+  const ViewDataset& dataset;
+  std::function<ViewScores()> scores;  ///< in problems of the table's own categories; computed on the first call
+  std::span<const double> predicted;   ///< SV-net's score of every view
+};
+
+/// The categories that a table is about.
+enum class Split { training, held_out };
+
+/// One selector that a configuration can name.
+struct SelectorKind {
+  const char* name;
+  const char* help;               ///< what it chooses, in a few words
+  bool of_training, of_held_out;  ///< whether the table of this split has it if no selectors are named
+  std::vector<std::int32_t> (*view)(const SelectorInputs& inputs);
+};
+
+/// All selectors. To add one, add an entry to the table in selectors.cpp.
+std::span<const SelectorKind> selector_kinds();
+
+/// The selectors `names`, in their order, or those that the table of the split has by default if there are no names.
+/// Throws Error with the nearest name if a name is unknown.
+std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::string>& names, Split split);
+
+/// The top view of each pose.
+std::vector<std::int32_t> top_views(const ViewDataset& dataset);
+
+/// The view of each pose with the highest score; the first among equals. The top view if no view of the pose has a
+/// score.
+std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores);
+
+}  // namespace svnet

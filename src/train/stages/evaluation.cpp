@@ -1,0 +1,94 @@
+#include "train/stages/evaluation.h"
+
+#include <map>
+#include <utility>
+
+#include "base/parallel.h"
+#include "io/files/atomic_file.h"
+#include "train/random_problems.h"
+#include "train/stages/held_out_scores.h"
+
+namespace svnet {
+namespace {
+
+/// The distances that pipelines need, those of each backbone once.
+class PipelineDistances {
+ public:
+  PipelineDistances(const Run& run, FeaturesStage& features) : run_(run), features_(features) {}
+
+  EvaluationPipeline pipeline(const std::string& name) {
+    const PipelineName parsed = parse_pipeline(name, "evaluation.pipelines");
+    const auto& [distances, dimension] = distances_of(parsed.backbone);
+    return {name, &distances, {.method = parsed.clustering, .dimension = dimension}};
+  }
+
+ private:
+  using Distances = std::pair<DistanceMatrix, Index>;  // with the features' dimension
+
+  const Distances& distances_of(const std::string& backbone) {
+    const auto found = distances_.find(backbone);
+    if (found != distances_.end()) return found->second;
+    const auto& scored = run_.config.scores;
+    const Features& f = features_.features(backbone, backbone == scored.backbone ? scored.layer : std::string());
+    return distances_
+        .emplace(backbone,
+                 Distances(squared_distances(f.values.data(), f.count, f.dimension, Parallel::shared()), f.dimension))
+        .first->second;
+  }
+
+  const Run& run_;
+  FeaturesStage& features_;
+  std::map<std::string, Distances> distances_{};
+};
+
+std::vector<Selector> selectors(const Run& run, Split split, const SelectorInputs& inputs) {
+  std::vector<Selector> selectors;
+  for (const SelectorKind* kind : selectors_of_table(run.config.evaluation.selectors, split))
+    selectors.push_back({kind->name, kind->view(inputs)});
+  return selectors;
+}
+
+}  // namespace
+
+EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs, std::uint64_t problems,
+                                  const std::optional<std::filesystem::path>& copy) {
+  PipelineDistances distances(run, inputs.features);
+  std::vector<EvaluationPipeline> pipelines;
+  for (const auto& name : run.config.evaluation.pipelines) pipelines.push_back(distances.pipeline(name));
+  const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
+  const auto table = [&](const std::vector<bool>& excluded, const std::vector<Selector>& selectors,
+                         const std::string& task) {
+    return evaluate(run.dataset, clustering_problems(run.dataset, excluded, run.config.scores), pipelines, selectors,
+                    options, Parallel::shared(), run.messages, task);
+  };
+
+  EvaluationTables tables;
+  const SelectorInputs in_training{.dataset = run.dataset,
+                                   .scores =
+                                       [&] {
+                                         return ViewScores{inputs.scores.individual, inputs.scores.global};
+                                       },
+                                   .predicted = inputs.predicted};
+  tables["training"] =
+      table(run.held_out, selectors(run, Split::training, in_training), "evaluation, training categories");
+  if (run.has_held_out_problems()) {
+    std::optional<SemanticScores> scores;
+    const SelectorInputs in_held_out{.dataset = run.dataset,
+                                     .scores =
+                                         [&] {
+                                           if (!scores) scores = held_out_scores(run, inputs.features, problems);
+                                           return ViewScores{scores->individual, scores->global};
+                                         },
+                                     .predicted = inputs.predicted};
+    tables["held_out"] = table(run.training_categories(), selectors(run, Split::held_out, in_held_out),
+                               "evaluation, held-out categories");
+  } else {
+    run.say("evaluation: fewer than 2 held-out categories, no table of them");
+  }
+  const std::string json = tables_json(tables);
+  write_atomically(run.folder / "evaluation.json", json);
+  if (copy) write_atomically(*copy, json);
+  return tables;
+}
+
+}  // namespace svnet

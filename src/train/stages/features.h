@@ -1,0 +1,30 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+
+#include "io/views/features_file.h"
+#include "train/feature_extraction.h"
+#include "train/run.h"
+
+namespace svnet {
+
+/// The first stage: features of every view, in features-<backbone>[-<layer>].h5. Features, and the weights of a
+/// backbone, are read or made once, when a later stage first asks for them. The layer "" is the pooled output.
+/// References that are returned live as long as this object. Keeps a reference to the run. Not thread-safe.
+class FeaturesStage {
+ public:
+  explicit FeaturesStage(const Run& run) : run_(run) {}
+
+  const Features& features(const std::string& backbone, const std::string& layer);
+  const BackboneWithOrigin& backbone(const std::string& name, const std::string& layer);
+  /// The fingerprint that features() have. Loads the backbone, but not the features.
+  std::string fingerprint(const std::string& backbone, const std::string& layer);
+
+ private:
+  const Run& run_;
+  std::map<std::string, BackboneWithOrigin> backbones_{};
+  std::map<std::filesystem::path, Features> features_{};  // by their file
+};
+
+}  // namespace svnet

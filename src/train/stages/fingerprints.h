@@ -1,0 +1,33 @@
+#pragma once
+#include <string>
+
+#include "semantics/semantic_scores.h"
+#include "train/config/config.h"
+#include "train/trainer.h"
+
+namespace svnet {
+
+// Fingerprints of the stages' files, and the options of the stages as a configuration says them.
+
+/// Changes with everything that the scores of these features depend on.
+std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
+
+/// Changes with everything that the model depends on. `features` is the fingerprint of the features that SV-net learns
+/// from, `scores` that of the scores.
+std::string model_fingerprint(const std::string& features, const std::string& scores, const Config& config);
+
+/// How problems are drawn, as scores files say it.
+std::string sampler_text(const Config::Scores& config);
+
+/// What `config.scores` and `config.seed` say of scores of features of that dimension.
+ScoreOptions score_options(const Config& config, Index dimension);
+
+/// Orientations of the top image whose mean a score is.
+int scored_orientations(const Config& config);
+/// Orientations of each top image that SV-net is trained on.
+int trained_orientations(const Config& config);
+/// The schedule stays empty; see learning_rate_schedule.
+TrainerOptions trainer_options(const Config& config, const std::string& fingerprint);
+Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch);
+
+}  // namespace svnet

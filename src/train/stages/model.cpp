@@ -1,0 +1,162 @@
+#include "train/stages/model.h"
+
+#include <memory>
+#include <optional>
+
+#include "base/text.h"
+#include "io/files/atomic_file.h"
+#include "io/models/checkpoint.h"
+#include "models/trained_graph.h"
+#include "train/epoch_order.h"
+#include "train/stages/fingerprints.h"
+#include "train/stages/reuse_or_make.h"
+#include "train/trained_from.h"
+#include "train/trainer.h"
+#include "train/validation_categories.h"
+#include "view/symmetry.h"
+
+namespace svnet {
+namespace {
+
+/// The fingerprint of the model that this configuration leads to.
+std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
+  const Config& config = run.config;
+  const std::string scores =
+      scores_fingerprint(features.fingerprint(config.scores.backbone, config.scores.layer), config);
+  return model_fingerprint(features.fingerprint(config.sv_net.backbone, config.sv_net.layer), scores, config);
+}
+
+/// The model before training: its head has no parameters yet.
+Model untrained_model(const Config& config, const Backbone& backbone, const std::string& fingerprint) {
+  const AngleEncoding angles = config.sv_net.angles;
+  return {.backbone = backbone.kind().name,
+          .backbone_output = backbone.output_name(),
+          .preprocessing = backbone.preprocessing(),
+          .backbone_graph = backbone.graph(),
+          .backbone_parameters = backbone.parameters(),
+          .angles = angles,
+          .symmetries = scored_orientations(config),
+          .head = sv_net({.features = backbone.dimension(),
+                          .width = config.sv_net.width,
+                          .dropout = config.sv_net.dropout,
+                          .angles = angles}),
+          .head_parameters = {},
+          .input_fingerprint = fingerprint};
+}
+
+/// The input of the layers above `from` of sv_net.backbone, for the top views of the categories that are not held out.
+std::unique_ptr<ViewInputs> training_inputs(const Run& run, FeaturesStage& features, const Backbone& backbone,
+                                            NodeId from) {
+  const Graph& graph = backbone.graph();
+  const int orientations = trained_orientations(run.config);
+  const bool all_frozen = graph.node(from).name == backbone.output_name();
+  if (all_frozen && orientations == 1)
+    return std::make_unique<FeatureInputs>(run.dataset,
+                                           features.features(run.config.sv_net.backbone, run.config.sv_net.layer));
+  if (std::holds_alternative<InputLayer>(graph.node(from).layer))
+    return std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(), nullptr,
+                                           PictureInputs::Options{.orientations = orientations});
+  auto inputs = std::make_unique<PictureInputs>(
+      run.dataset, backbone.preprocessing(), std::make_shared<Inference>(graph, backbone.parameters(), from),
+      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
+  std::vector<Index> top_views;
+  for (const auto& pose : run.dataset.poses)
+    if (!run.held_out[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
+  inputs->keep(top_views, run.messages, run.communicator);
+  return inputs;
+}
+
+/// The files of a training: the state after the last epoch, and after the best one.
+struct CheckpointFiles {
+  std::filesystem::path last, best;
+};
+
+/// The checkpoint to resume from, the same in every process, or nothing.
+std::optional<Checkpoint> resumed_checkpoint(const Run& run, const CheckpointFiles& files, const Graph& graph,
+                                             const std::string& fingerprint, const std::vector<Shape>& optimizer,
+                                             Resume resume) {
+  std::optional<Checkpoint> from;
+  if (resume != Resume::never && run.communicator.is_root()) try {
+      const bool same = read_checkpoint_fingerprint(files.last) == fingerprint &&
+                        read_checkpoint_fingerprint(files.best) == fingerprint;
+      check(same || resume != Resume::any || !std::filesystem::exists(files.last), files.last.string(),
+            ": a checkpoint of another training");
+      if (same) from = read_checkpoint(files.last, graph, optimizer);
+    } catch (const Error& error) {
+      if (resume == Resume::any) throw;
+      run.say(joined("training starts anew: ", error.what()));
+    }
+  if (run.communicator.broadcast(from.has_value()) == 0) return {};
+  if (!from) from = read_checkpoint(files.last, graph, optimizer);
+  run.say(joined("training: goes on after epoch ", from->epoch));
+  return from;
+}
+
+/// Trains `graph` and puts the parameters of the best epoch into the model.
+void train_into(Model& model, const Run& run, const Graph& graph, const TrainingSet& training,
+                const TrainingSet* validation, Resume resume) {
+  TrainerOptions options = trainer_options(run.config, model.input_fingerprint);
+  options.schedule = learning_rate_schedule(run.config, batch_count(options.batch_size, training.size()));
+  Trainer trainer(graph, training, validation, options, run.communicator);
+  const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
+  auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
+  trainer.train(
+      from ? std::move(*from)
+           : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
+      [&](const Checkpoint& state, bool is_best) {
+        if (!run.communicator.is_root()) return;
+        if (is_best) write_checkpoint(files.best, state);
+        write_checkpoint(files.last, state);
+        write_atomically(run.folder / "metrics.csv", state.metrics);
+      },
+      run.messages);
+  run.communicator.barrier();  // the root process has written what all read
+  take_trained(read_checkpoint_parameters(files.best, graph), model.backbone_parameters, model.head_parameters);
+}
+
+Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint,
+                 Resume resume) {
+  const Config& config = run.config;
+  const Backbone& backbone = features.backbone(config.sv_net.backbone, config.sv_net.layer).backbone;
+  Model model = untrained_model(config, backbone, fingerprint);
+
+  const std::vector<bool> validating = validation_categories(run.held_out, config);
+  std::vector<bool> training = run.training_categories();
+  for (std::size_t c = 0; c < training.size(); ++c) training[c] = training[c] && !validating[c];
+  const Target target = config.sv_net.target;
+  const NodeId output = backbone.graph().find(backbone.output_name());
+  const NodeId from = trained_from(config.training.fine_tune, backbone.kind(), backbone.graph(), output);
+  const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, from);
+  const TrainingSet training_set(run.dataset, *inputs, scores, training, target, model.angles);
+  std::optional<TrainingSet> validation_set;
+  if (config.training.validation_categories > 0)
+    validation_set.emplace(run.dataset, *inputs, scores, validating, target, model.angles);
+  const Graph trained = trained_graph(backbone.graph(), from, output, model.head);
+  run.say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
+                 validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
+  train_into(model, run, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
+  return model;
+}
+
+}  // namespace
+
+Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores, Resume resume) {
+  const StageFile file{.path = run.folder / "model.safetensors",
+                       .fingerprint = wanted_fingerprint(run, features),
+                       .content = "SV-net",
+                       .resume = resume};
+  const auto make = [&] { return make_model(run, features, scores, file.fingerprint, resume); };
+  return reuse_or_make(run, file, read_model, make, write_model);
+}
+
+Model trained_model(const Run& run, FeaturesStage& features) {
+  const auto path = run.folder / "model.safetensors";
+  check(std::filesystem::exists(path), run.folder.string(), ": holds no trained model; run svnet-train first");
+  Model model = read_model(path);
+  check(model.input_fingerprint == wanted_fingerprint(run, features), path.string(),
+        ": was trained with another configuration, other pictures or other weights; run svnet-train with this "
+        "configuration first");
+  return model;
+}
+
+}  // namespace svnet

@@ -1,0 +1,52 @@
+#include "train/stages/predictions.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "predict/score_head.h"
+#include "train/view_inputs.h"
+
+namespace svnet {
+namespace {
+
+/// What the head takes, for every view. The features of the first stage serve if the backbone was not trained.
+std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features, const Model& model) {
+  const Config& config = run.config;
+  if (config.training.fine_tune == FineTune::none && model.symmetries == 1)
+    return std::make_unique<FeatureInputs>(run.dataset, features.features(config.sv_net.backbone, config.sv_net.layer));
+  return std::make_unique<PictureInputs>(run.dataset, model.preprocessing,
+                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
+                                                                     model.backbone_graph.find(model.backbone_output)),
+                                         PictureInputs::Options{.orientations = model.symmetries, .flat = true});
+}
+
+}  // namespace
+
+std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_stage, const Model& model) {
+  const std::unique_ptr<ViewInputs> inputs = head_inputs(run, features_stage, model);
+  const ScoreHead head(model);
+  const Index dimension = head.feature_count();
+  const auto pose_count = static_cast<Index>(run.dataset.poses.size());
+  std::vector<double> predicted;
+  constexpr Index kPoses = 16;  // that share a batch
+  for (Index first = 0; first < pose_count; first += kPoses) {
+    const Index last = std::min(first + kPoses, pose_count);
+    std::vector<Index> top_views;
+    for (Index pose = first; pose < last; ++pose)
+      for (int orientation = 0; orientation < model.symmetries; ++orientation)
+        top_views.push_back(run.dataset.top_view(pose) * model.symmetries + orientation);
+    const Tensor features = inputs->batch(top_views);
+    for (Index pose = first; pose < last; ++pose) {
+      Tensor top = Tensor::empty({1, dimension});
+      std::copy_n(features.data<float>() + (pose - first) * dimension, dimension, top.data<float>());
+      std::vector<CameraPose> candidates;
+      for (const View& view : run.dataset.views_of(pose))
+        candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+      const std::vector<float> scores = head.scores(top, candidates);
+      predicted.insert(predicted.end(), scores.begin(), scores.end());
+    }
+  }
+  return predicted;
+}
+
+}  // namespace svnet

@@ -1,0 +1,37 @@
+#pragma once
+#include <filesystem>
+#include <vector>
+
+#include "base/communicator.h"
+#include "base/progress.h"
+#include "data/view_dataset.h"
+#include "io/views/features_file.h"
+#include "io/views/scores_file.h"
+#include "train/config/config.h"
+#include "train/stages/features.h"
+#include "train/stages/resume.h"
+
+namespace svnet {
+
+/// The second stage: Monte-Carlo scores of every view, in scores.h5. Views of held-out categories have none. Resumes
+/// from the snapshot of an interrupted run if that was making the same scores.
+Scores scores_stage(const Run& run, FeaturesStage& features);
+
+/// How scores are made, which does not change them.
+struct ScoringOptions {
+  Resume resume = Resume::never;                         ///< from the snapshot
+  double snapshot_seconds = 10;                          ///< from one snapshot to the next
+  Communicator& communicator = SingleProcess::shared();  ///< shares the work; the root process reads and writes files
+};
+
+/// Returns the scores of every view as `config.scores` and `config.seed` say; views of excluded categories have none.
+/// While problems are solved, keeps a snapshot at snapshot_path(path). Requires: rows of the features are the
+/// dataset's views.
+Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
+                   const std::vector<bool>& excluded, const Config& config, const Messages& messages,
+                   const ScoringOptions& options);
+
+/// Writes the scores to `path` and removes the snapshot that make_scores left beside it.
+void write_made_scores(const std::filesystem::path& path, const Scores& scores);
+
+}  // namespace svnet

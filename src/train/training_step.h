@@ -1,0 +1,34 @@
+#pragma once
+#include <functional>
+#include <vector>
+
+#include "base/communicator.h"
+#include "nn/autograd.h"
+#include "nn/graph/graph.h"
+#include "nn/graph/parameters.h"
+#include "nn/optim/optimizer.h"
+
+namespace svnet {
+
+struct StepOptions {
+  const char* task = "training";  ///< begins error messages
+  double learning_rate = 0;
+  std::uint64_t seed = 0;  ///< of dropout
+  /// Whether gradients of dense layers are computed, or kept as two factors for the optimizer.
+  autograd::GradientMap::Products products = autograd::GradientMap::Products::compute;
+  Communicator* communicator = nullptr;  ///< whose processes share the products of dense layers
+};
+
+struct StepResult {
+  Tensor output;  ///< of the graph, before the step
+  double loss = 0;
+};
+
+/// One step of training: runs the graph on a batch, takes `loss(output)`, a scalar, runs backwards and changes the
+/// graph's trainable parameters by the optimizer, whose count of steps numbers this one. Throws Error if the loss or a
+/// gradient is not finite; the parameters are then as before, but for moving statistics.
+StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& optimizer,
+                         const std::vector<Tensor>& inputs, const std::function<Tensor(const Tensor& output)>& loss,
+                         const StepOptions& options);
+
+}  // namespace svnet

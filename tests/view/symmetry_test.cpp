@@ -1,0 +1,58 @@
+#include "view/symmetry.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <numbers>
+#include <set>
+#include <vector>
+
+using namespace svnet;
+
+namespace {
+
+/// The azimuth, in degrees, of the one pixel that is not 0, seen from the picture's centre; right is 0, up is 90.
+double azimuth_of_mark(Index side, const std::vector<float>& pixels) {
+  for (Index i = 0; i < side; ++i)
+    for (Index j = 0; j < side; ++j)
+      if (pixels[static_cast<std::size_t>((i * side + j) * 3)] != 0) {
+        const double right = static_cast<double>(2 * j - (side - 1)), up = static_cast<double>(side - 1 - 2 * i);
+        const double degrees = std::atan2(up, right) * 180 / std::numbers::pi;
+        return degrees < 0 ? degrees + 360 : degrees;
+      }
+  return -1;
+}
+
+}  // namespace
+
+TEST_CASE("A mark in a top view turns as azimuths do") {
+  constexpr Index kSide = 7;
+  for (Index row = 0; row < kSide; ++row)
+    for (Index column = 0; column < kSide; ++column) {
+      if (row == kSide / 2 && column == kSide / 2) continue;
+      std::vector<float> picture(kSide * kSide * 3);
+      for (Index c = 0; c < 3; ++c) picture[static_cast<std::size_t>((row * kSide + column) * 3 + c)] = 1;
+      const double before = azimuth_of_mark(kSide, picture);
+      for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+        CAPTURE(row, column, symmetry);
+        std::vector<float> turned(picture.size(), 5);
+        apply_symmetry(symmetry, kSide, picture.data(), turned.data());
+        const double expected = symmetric_theta_deg(symmetry, before);
+        CHECK(expected >= 0);
+        CHECK(expected < 360);
+        CHECK(azimuth_of_mark(kSide, turned) == Approx(expected).margin(1e-9));
+      }
+    }
+}
+
+TEST_CASE("All symmetries differ, and the first is the picture as taken") {
+  std::vector<float> picture(3 * 3 * 3);
+  for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = static_cast<float>(i + 1);
+  std::set<std::vector<float>> seen;
+  for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
+    std::vector<float> turned(picture.size());
+    apply_symmetry(symmetry, 3, picture.data(), turned.data());
+    if (symmetry == 0) CHECK(turned == picture);
+    seen.insert(turned);
+  }
+  CHECK(seen.size() == kSymmetries);
+}

@@ -1,0 +1,11 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace svnet {
+
+/// A few lines that say what a file of svnet's or of Keras' contains: features, scores, weights, checkpoint, model.
+/// Throws Error, with the name of the file, if it is none of them.
+std::string description_of(const std::filesystem::path& file);
+
+}  // namespace svnet
