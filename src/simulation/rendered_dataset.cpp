@@ -135,7 +135,8 @@ class RenderJob {
       RestingMesh object{mesh_of(source, options_.metres_per_unit, options_.seed,
                                  [&](const std::string& text) { lines.push_back(text); }),
                          {}};
-      object.resting = resting_poses(object.mesh);
+      constexpr std::size_t kExactPoints = 4096;  // scans have many more, and their hulls take minutes
+      object.resting = source.file.empty() ? resting_poses(object.mesh) : resting_poses(object.mesh, kExactPoints);
       return object;
     } catch (const Error& error) {
       const std::string text = error.what(), file = source.file.string();
@@ -210,7 +211,8 @@ class RenderJob {
       if (!entry.picture.rgb.empty()) sheet.back().pictures.push_back(std::move(entry.picture));
     }
     write_png(folder / "_extra" / "contact_sheet.png", picture_table(sheet, kSheetCell_px));
-    write_atomically(folder / "manifest.json", manifest.dump(1) + "\n");
+    // Messages may quote bytes of a mesh file that are not UTF-8.
+    write_atomically(folder / "manifest.json", manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     write_atomically(folder / "_extra" / "overview_camera.json",
                      camera_json({overview_camera(), overview_camera_to_world()}));
     write_atomically(folder / "_extra" / "view_camera.json", camera_json({view_camera(options_.size), {}}));

@@ -174,13 +174,12 @@ std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> 
   return triangles;
 }
 
-std::vector<RestingPose> resting_poses(const Mesh& mesh) {
+std::vector<RestingPose> resting_poses(const Mesh& mesh, std::size_t exact_points) {
   std::vector<Vector3d> points;
   const Vector3d centre = centre_of_mass(mesh);
   for (const Vec3& point : mesh.points) points.emplace_back(point.cast<double>() - centre);
-  constexpr std::size_t kManyPoints = 32768;
   constexpr int kDirections = 4096;
-  if (points.size() > kManyPoints) points = outermost(points, kDirections);
+  if (points.size() > exact_points) points = outermost(points, kDirections);
   const double size = extent(points);
   const auto hull = convex_hull(points);
   std::vector<Vector3d> corners;  // of the hull, relative to the centre of mass

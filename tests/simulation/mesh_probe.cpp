@@ -24,6 +24,6 @@ int main(int argc, char** argv) {
     } catch (const std::exception& error) {
       line["error"] = error.what();
     }
-    std::cout << line.dump() << "\n";
+    std::cout << line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) << "\n";
   }
 }

@@ -14,7 +14,7 @@ namespace {
 
 using Json = GltfFile::Json;
 
-constexpr std::size_t kMostElements = 30'000'000;  // of an accessor
+constexpr std::size_t kMostElements = 15'000'000;  // of an accessor
 
 std::uint32_t word_at(std::string_view bytes, std::size_t at) {
   std::uint32_t word = 0;

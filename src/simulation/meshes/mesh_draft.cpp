@@ -91,7 +91,7 @@ Mesh MeshDraft::finish(const std::function<double(double length)>& metres_per_un
 }
 
 std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Vector3d> corners) {
-  constexpr std::size_t kMostEars = 4096;  // ear clipping takes at least the square of the corners
+  constexpr std::size_t kMostEars = 1024;  // ear clipping takes at least the square of the corners
   const std::size_t count = corners.size();
   Vector3d normal = Vector3d::Zero();  // Newell's
   for (std::size_t i = 0; i < count; ++i)

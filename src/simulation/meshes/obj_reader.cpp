@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "base/error.h"
 #include "io/files/whole_file.h"
@@ -33,7 +34,7 @@ class ObjReader {
       }
       read_line(line);
     }
-    if (!missing_.empty() && !material_file_is_missing_)
+    if (!missing_.empty() && missing_files_.empty())
       files_.warn(joined("material '", printable(missing_), "' is in no material file; its faces are grey"));
   }
 
@@ -148,8 +149,7 @@ class ObjReader {
     bool is_missing = words.size() < 2;
     if (words.size() > 1)
       for (const std::string& word : words) is_missing |= !read_material_file(word);
-    if (!is_missing) return;
-    material_file_is_missing_ = true;
+    if (!is_missing || !missing_files_.insert(std::string(names)).second) return;
     files_.warn(joined("material file '", printable(names), "' is missing; the object is rendered without it"));
   }
 
@@ -207,7 +207,7 @@ class ObjReader {
   std::vector<Vec3> tints_;  // of the points up to the last one that has a colour, or empty
   std::map<std::string, UsedMaterial> materials_;
   std::string material_name_, missing_;
-  bool material_file_is_missing_ = false;
+  std::set<std::string> missing_files_;
   UsedMaterial* material_ = nullptr;
   std::vector<std::uint32_t> face_;
   std::vector<Vec2> places_;

@@ -14,10 +14,11 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
-/// Up to the next LF or CR, without it.
+/// Up to the next LF, CR or CR LF, without it.
 inline std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find_first_of("\n\r"));
-  text.remove_prefix(std::min(line.size() + 1, text.size()));
+  text.remove_prefix(line.size());
+  text.remove_prefix(std::min<std::size_t>(text.starts_with("\r\n") ? 2 : 1, text.size()));
   return line;
 }
 
