@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
-"""How well k-nearest neighbours tell the categories of a collection, by its features: leave one object out.
+"""Accuracy of k-nearest neighbours on the features of a collection, leaving one object out.
 
-Usage: collection_accuracy.py FEATURES.h5 [--scores SCORES.h5] [--k N] [--confusions N]. FEATURES.h5 is svnet-features' file,
-SCORES.h5 svnet-score's of the same views; run this with a Python that has NumPy and h5py.
+Usage: collection_accuracy.py FEATURES.h5 [--scores SCORES.h5] [--k N] [--confusions N]. svnet-features wrote FEATURES.h5,
+and svnet-score wrote SCORES.h5 for the same views. The Python that runs this needs NumPy and h5py.
 
-A view is called by the majority of the k nearest views (cosine) of all other objects, the nearest one where votes are
-equal. Prints the accuracy of all views and of each elevation; with scores, of the best and the worst view of each pose and of the
-best and the worst third, by their individual score. "among themselves" has only such views for neighbours, as when a
-robot takes one view of each object and sorts what it took; "among all" has every view of the other objects.
+A view is assigned the most frequent category of its k nearest views (cosine) of all other objects; in a tie, the category
+that comes first among the neighbours. Prints the accuracy of all views and of each elevation; with scores, also of the best
+and the worst view of each pose, and of its best and worst third, by individual score. "among themselves": only views of the
+same row are neighbours, as if a robot took one view of each object and sorted them. "among all": every view of the other
+objects is a neighbour.
 """
 import argparse
 
@@ -31,8 +32,8 @@ class Collection:
         self.alike = features @ features.T
         self.alike[self.object[:, None] == self.object] = -np.inf
 
-    def called(self, views, neighbours, k):
-        """The category that each of `views` is called by its k nearest among `neighbours`."""
+    def assigned(self, views, neighbours, k):
+        """The category that the k nearest of `neighbours` assign to each of `views`."""
         alike = self.alike[np.ix_(views, neighbours)]
         order = np.argsort(-alike, axis=1, kind="stable")[:, :k]
         near = self.category[neighbours][order]
@@ -41,11 +42,11 @@ class Collection:
         return np.lexsort((first, -votes), axis=1)[:, 0]
 
     def accuracy(self, views, neighbours, k):
-        return np.mean(self.called(views, neighbours, k) == self.category[views])
+        return np.mean(self.assigned(views, neighbours, k) == self.category[views])
 
 
 def of_each_pose(collection, scores, chosen):
-    """The views at the places `chosen`(count) of each pose, ordered by score from the worst to the best."""
+    """The views of each pose at the positions `chosen(count)`, in order of score from worst to best."""
     rows = []
     for pose in range(collection.pose.max() + 1):
         views = np.flatnonzero(collection.pose == pose)
@@ -58,7 +59,7 @@ def main():
     parser.add_argument("features")
     parser.add_argument("--scores")
     parser.add_argument("--k", type=int, default=5)
-    parser.add_argument("--confusions", type=int, default=0, help="print so many of the most frequent")
+    parser.add_argument("--confusions", type=int, default=0, help="print the N most frequent confusions of each category")
     args = parser.parse_args()
     with h5py.File(args.features) as file:
         paths = decoded(file["paths"][:])
@@ -84,9 +85,9 @@ def main():
         print(f"{name:28}{collection.accuracy(views, views, args.k):18.3f}"
               f"{collection.accuracy(views, everything, args.k):12.3f}{len(views):8d}")
     if args.confusions:
-        called = collection.called(everything, everything, args.k)
+        assigned = collection.assigned(everything, everything, args.k)
         table = np.zeros((len(collection.names),) * 2, int)
-        np.add.at(table, (collection.category, called), 1)
+        np.add.at(table, (collection.category, assigned), 1)
         for i in np.argsort(np.diag(table) / table.sum(axis=1)):
             wrong = [(table[i, j], collection.names[j]) for j in range(len(table)) if j != i and table[i, j]]
             worst = ", ".join(f"{name} {count}" for count, name in sorted(wrong, reverse=True)[: args.confusions])

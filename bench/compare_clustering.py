@@ -1,11 +1,12 @@
 #!/usr/bin/env python3
-"""svnet's clustering problems beside scikit-learn's, on one core each, in turns, so that both see the same machine.
+"""Times clustering problems with svnet and with scikit-learn, on one core, in turns.
 
-Usage: compare_clustering.py BENCH [--rounds N]. BENCH is the program svnet_semantics_bench; run this with a Python that has
-NumPy and scikit-learn. Prints the least CPU time per problem of each side, and their ratio.
+Usage: compare_clustering.py BENCH [--rounds N]. BENCH is the program svnet_semantics_bench. The Python that runs this needs
+NumPy and scikit-learn. Prints the least CPU time per problem of both, and their ratio.
 
-Both do the whole of a problem: draw it from 7,560 views (24 categories of 5 objects in 3 poses of 21 views, 2048 features; 3 to
-24 categories with 1 to 5 objects each, 40 images on average), cluster it, and score it, globally and view by view.
+Both draw a problem, cluster it, and compute its global and individual scores. Problems are drawn from 7,560 views
+(24 categories of 5 objects in 3 poses of 21 views, 2048 features): 3 to 24 categories with 1 to 5 objects each, 40 views on
+average.
 """
 import argparse
 import json

@@ -1,5 +1,5 @@
-// evaluation/10000: a table of 10000 problems of the paper's size, three pipelines (Ward, k-means, Ward on other
-// features) by three selectors.
+// evaluation/10000: an evaluation table of 10000 problems of the paper's size, with three pipelines (Ward, k-means,
+// Ward on other features) and three selectors.
 #include <benchmark/benchmark.h>
 
 #include "train/evaluation.h"

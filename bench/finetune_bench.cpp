@@ -1,4 +1,4 @@
-// finetune/vgg19/batch:<n>: one training step of VGG19 up to block5_pool, forward, backward and SGD.
+// finetune/vgg19/batch:<n>: one training step of VGG19 up to block5_pool: forward pass, backward pass and SGD.
 // Counter: `flops` of one step.
 #include <benchmark/benchmark.h>
 
@@ -23,9 +23,9 @@ void finetune(benchmark::State& state) {
     autograd::backward(ops::mean_squared_error(features, targets), gradients);
     optimizer->step(gradients, 1e-6);
   };
-  step();  // touches the memory of activations and gradients for the first time
+  step();  // first use of the memory of activations and gradients
   for (auto _ : state) step();
-  double forward = 0, first = 0;  // 2 a weight and position; positions are those of the output
+  double forward = 0, first = 0;  // 2 flops per weight and output position
   for (const GraphNode& node : graph.nodes()) {
     if (node.parameters.empty()) continue;
     const Shape& kernel = node.parameters[0].shape;

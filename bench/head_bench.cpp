@@ -25,10 +25,10 @@ void head_step(benchmark::State& state) {
     autograd::backward(ops::mean_squared_error(score, targets), gradients);
     optimizer->step(gradients, 1e-3);
   };
-  step();  // touches the optimiser's memory for the first time
+  step();  // first use of the optimizer's memory
   for (auto _ : state) step();
-  // Every weight is multiplied forwards and for its own gradient, all but the first layer's for that of its input.
-  // Weights are read forwards and backwards; Adam reads and writes them and both moments.
+  // Every weight is multiplied in the forward pass and for its own gradient; all but those of the first layer also for
+  // the gradient of the layer's input. Weights are read in both passes; Adam reads and writes them and both moments.
   const auto weights = static_cast<double>(graph.parameter_count());
   const double backwards = weights - 25088.0 * 4096.0;
   state.counters["flops"] = 2 * static_cast<double>(state.range(0)) * (2 * weights + backwards);

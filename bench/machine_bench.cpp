@@ -1,5 +1,5 @@
-// machine/gemm, machine/memory: what the machine can do at most, in the terms in which networks are counted. Counters:
-// `flops` and `bytes` of one iteration.
+// machine/gemm, machine/memory: the peaks of the machine, in the units of the other benchmarks. Counters: `flops` and
+// `bytes` of one iteration.
 #include <algorithm>
 #include <vector>
 
@@ -11,7 +11,7 @@
 namespace svnet {
 namespace {
 
-/// The packed micro-kernel on all threads, each on operands of its own that stay in its cache.
+/// The packed micro-kernel on all threads; each has its own operands, which stay in its cache.
 void gemm(benchmark::State& state) {
   constexpr Index kRows = 84, kDepth = 256, kColumns = 64, kRepeats = 50, kChunksPerThread = 8;
   Parallel& parallel = Parallel::shared();
@@ -38,7 +38,7 @@ void gemm(benchmark::State& state) {
 }
 BENCHMARK(gemm)->Name("machine/gemm")->Unit(benchmark::kMillisecond)->UseRealTime();
 
-/// Reads and writes numbers in place, far more than any cache holds.
+/// Reads and writes an array in place that is much larger than any cache.
 void memory(benchmark::State& state) {
   constexpr Index kChunk = 65536, kNumbers = Index{1024} * kChunk;
   const AlignedFloats numbers = aligned_floats(kNumbers);

@@ -1,7 +1,7 @@
-// svnet_paper_views FOLDER [VIEWS]: a dataset of the paper's size, for timing svnet-score. Writes FOLDER/data, 24
-// categories of objects in 3 poses of 21 views, so many views in all (7560: 5 objects of each category), whose files
-// are no pictures (scoring never opens them as such), and FOLDER/features.h5, 2048 numbers per view drawn around a
-// centre of each category.
+// svnet_paper_views FOLDER [VIEWS]: writes a dataset of the paper's size, for timing svnet-score.
+// FOLDER/data: VIEWS views (default 7560, that is 5 objects per category) in 24 categories; an object has 3 poses of 21
+// views. The files are not images, because scoring does not decode them.
+// FOLDER/features.h5: 2048 features per view, drawn around the centre of its category.
 #include <cstdlib>
 #include <fstream>
 #include <iostream>

@@ -1,5 +1,5 @@
-// semantics/<clustering>: one random problem of the paper's size (24 categories x 5 objects x 3 poses x 21 views),
-// drawn, clustered and scored on one thread. distances/<views>: the matrix of squared distances of 2048 features.
+// problem/<clustering>/<problems>: random problems of the paper's size (24 categories x 5 objects x 3 poses x 21
+// views), drawn, clustered and scored on one thread. distances/<views>/<features>: a matrix of squared distances.
 #include <benchmark/benchmark.h>
 
 #include "semantics/problem_solver.h"
@@ -10,7 +10,7 @@ namespace {
 struct Paper {
   std::vector<std::int64_t> category, object, pose;
   std::vector<float> features;
-  static constexpr Index kFeatures = 64;  // enough: problems see distances alone
+  static constexpr Index kFeatures = 64;  // few suffice: problems use only distances
 
   Paper() {
     RandomStream random(1, Stream::shuffle);
@@ -43,7 +43,7 @@ void problem(benchmark::State& state, const ClusteringOptions& clustering) {
   ProblemSolver solver(distances, problems, {.clustering = clustering}, one);
   ScoreSums sums(problems.views());
   const auto batch = static_cast<std::uint64_t>(state.range(0));
-  solver.solve(0, batch, sums);  // touches the memory for the first time
+  solver.solve(0, batch, sums);  // first use of the memory
   std::uint64_t first = batch;
   for (auto _ : state) {
     solver.solve(first, first + batch, sums);

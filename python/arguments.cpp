@@ -13,8 +13,8 @@ namespace {
 
 namespace py = pybind11;
 
-/// What `convert` returns, or nothing where Python says that the value does not fit. Whatever else is raised, such as
-/// KeyboardInterrupt by an object's __array__, is not about the value and goes on to the caller.
+/// Returns the result of `convert`, or nothing if it raises TypeError, ValueError or OverflowError: the value does not
+/// fit. Other exceptions, such as a KeyboardInterrupt in an object's __array__, are not caught.
 template <class Convert>
 std::optional<std::invoke_result_t<Convert>> if_it_fits(const Convert& convert) {
   try {
@@ -26,9 +26,9 @@ std::optional<std::invoke_result_t<Convert>> if_it_fits(const Convert& convert) 
   }
 }
 
-/// The given as an array of any dtype, strides and byte order.
+/// Converts to an array, of any dtype, strides and byte order.
 py::array any_array(const char* function, const char* argument, const py::object& given, const char* expected) {
-  const auto array = if_it_fits([&] { return py::array(given); });  // not rows of unequal length
+  const auto array = if_it_fits([&] { return py::array(given); });  // fails for rows of unequal length
   check(array.has_value(), "[", function, "] ", argument, " is not an array; expects ", expected);
   return *array;
 }
@@ -52,26 +52,26 @@ void check_numbers(const char* function, const char* argument, const py::array& 
         dtype_text(array), "; expects integers or floats");
 }
 
-/// `subject`: "images have", for the message.
+/// `subject`: the first words of the message, such as "images have".
 void check_pixels(const char* function, const char* subject, const py::array& array) {
   check(array.dtype().kind() == 'u' && array.itemsize() == 1, "[", function, "] ", subject, " dtype ",
         dtype_text(array), "; expects uint8, grey levels from 0 to 255, not yet preprocessed");
 }
 
-/// Whether every value of the dtype is a float32.
+/// Whether float32 can hold every value of the dtype.
 bool fits_float(const py::array& array) { return array.itemsize() <= (is_integer(array) ? 2 : 4); }
 
-/// UTF-8, with lone surrogates written as \udcff.
+/// Encodes as UTF-8; lone surrogates are written as \udcff.
 std::string utf8(const py::str& text) {
   PyObject* bytes = PyUnicode_AsEncodedString(text.ptr(), "utf-8", "backslashreplace");
   if (bytes == nullptr) throw py::error_already_set();
   return py::reinterpret_steal<py::bytes>(bytes);
 }
 
-/// On one line.
+/// At most 60 characters of repr, on one line.
 std::string repr(const py::object& given) {
   constexpr py::ssize_t kLongest = 60;
-  const auto text = if_it_fits([&] { return py::repr(given); });  // not an int of more than 4300 digits
+  const auto text = if_it_fits([&] { return py::repr(given); });  // fails for an int of more than 4300 digits
   if (!text) return joined("<unprintable ", Py_TYPE(given.ptr())->tp_name, " object>");
   std::string shown = utf8((*text)[py::slice(0, kLongest, 1)]);
   std::ranges::replace(shown, '\n', ' ');

@@ -16,22 +16,22 @@
 #include "semantics/distances.h"
 #include "view/camera_pose.h"
 
-// From what a caller in Python passes to what the library takes. `function` and `argument` are for messages alone.
-// All of these need the GIL.
+// Converts the arguments of a Python caller to the types of the library. `function` and `argument` are for messages.
+// All of these throw Error for a value that does not fit, and require the GIL.
 namespace svnet::python {
 
 template <class T>
 using Array = pybind11::array_t<T, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// Features (N, D) as contiguous float32, or as float64 where float32 might lose digits.
+/// Features (N, D) as contiguous float32, or as float64 if float32 cannot hold every value of the dtype.
 class GivenFeatures {
  public:
-  /// Any array-like (N, D) of integers or floats. Throws Error for anything else.
+  /// Takes any array-like (N, D) of integers or floats.
   GivenFeatures(const char* function, const pybind11::object& given);
 
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
-  /// Needs no GIL.
+  /// Does not require the GIL.
   DistanceMatrix squared_distances(Parallel& parallel) const;
 
  private:
@@ -39,7 +39,7 @@ class GivenFeatures {
   Index rows_, columns_;
 };
 
-/// Numbers of groups (N), from any array-like of integers, or of floats that are whole. Throws Error for anything else.
+/// Labels (N), from any array-like of integers, or of floats that are whole.
 class GivenLabels {
  public:
   GivenLabels(const char* function, const char* argument, const pybind11::object& given);
@@ -50,26 +50,26 @@ class GivenLabels {
   Array<std::int64_t> values_;
 };
 
-/// Pictures (N, H, W, 3) of uint8. Throws Error for anything else.
+/// Images (N, H, W, 3) of uint8.
 Array<std::uint8_t> images(const char* function, const pybind11::object& given);
 
-/// A copy of a picture (H, W, 3) of uint8, of at least one pixel. Throws Error for anything else.
+/// A copy of an image (H, W, 3) of uint8 with at least one pixel.
 Image image(const char* function, const pybind11::object& given);
 
-/// Poses (M, 2), theta and phi in degrees, from any array-like of integers or floats; at least one, all in range.
-/// Throws Error for anything else, with the number of the pose.
+/// Camera poses, from any array-like (M, 2) of integers or floats: theta and phi in degrees, all in range; M >= 1. The
+/// message says the index of a wrong pose.
 std::vector<CameraPose> camera_poses(const char* function, const pybind11::object& given);
 
-/// A Python or NumPy integer or float. Throws Error for anything else.
+/// A Python or NumPy integer or float.
 double number(const char* function, const char* argument, const pybind11::object& given);
 
-/// Three of them, from any array-like (3,). Throws Error for anything else.
+/// A point, from any array-like (3,) of integers or floats.
 std::array<double, 3> point(const char* function, const char* argument, const pybind11::object& given);
 
-/// A Python or NumPy integer in [lowest, 2^64). Throws Error for anything else.
+/// A Python or NumPy integer in [lowest, highest].
 std::uint64_t whole_number(const char* function, const char* argument, const pybind11::object& given,
                            std::uint64_t lowest = 0, std::uint64_t highest = ~std::uint64_t{0});
-/// The same in [lowest, 2^63).
+/// A Python or NumPy integer in [lowest, 2^63).
 Index count_of(const char* function, const char* argument, const pybind11::object& given, std::uint64_t lowest = 1);
 
 /// The names of an enum as messages list them: "a", "b" or "c", in quotes.
@@ -82,13 +82,13 @@ std::string quoted_names() {
   return joined_with(", ", names) + " or " + last;
 }
 
-/// A str, as UTF-8; lone surrogates are written as \udcff. Throws Error for anything else.
+/// A str as UTF-8; lone surrogates are written as \udcff. `expected`: for the message.
 std::string text(const char* function, const char* argument, const pybind11::object& given, const char* expected);
 
-/// A path given as str, bytes or os.PathLike. Throws Error for anything else.
+/// A path, from str, bytes or os.PathLike.
 std::string path(const char* function, const char* argument, const pybind11::object& given);
 
-/// A new array of the numbers, int64.
+/// A new int64 array of the labels.
 pybind11::array_t<std::int64_t> label_array(std::span<const std::int32_t> labels);
 
 template <class T>

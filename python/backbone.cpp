@@ -17,39 +17,40 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr Index kBatch = 32;  // images computed at once: bounds the memory
+constexpr Index kBatch = 32;  // images per batch, to limit memory
 
 constexpr const char* kClassDoc =
-    R"(A convolutional network, cut at the layer whose output are the features. Safe to share between threads.
+    R"(A convolutional network up to the layer whose output are the features. Threads may share one.
 
 Parameters
 ----------
 name : one of {names}
-weights : path of a Keras HDF5 weights file, legacy layout or Keras 3 .weights.h5, or of a .safetensors file that
-    svnet-pretrain wrote; None: the built-in weights of tiny_xception, for others random numbers from the seed, and no
-    top. The network has its top ("predictions") if the file has one.
-layer : Keras name of the output layer; None: the pooled output, block5_pool of VGG, else global average pooling
-    (also "avg_pool", "global_average_pooling2d")
-seed : int from 0 to 2^64 - 1, used where there are no weights, given or built in
+weights : path of a Keras HDF5 weights file (legacy layout or Keras 3 .weights.h5), or of a .safetensors file that
+    svnet-pretrain wrote. The network has its top ("predictions") if the file has one.
+    None: the built-in weights for tiny_xception, random weights for other networks; no top.
+layer : Keras name of the output layer. None: the pooled output: block5_pool for VGG, else global average pooling
+    (also called "avg_pool" or "global_average_pooling2d").
+seed : int from 0 to 2^64 - 1, for random weights
 
 Raises
 ------
-svnet.Error for unknown names, with the nearest one, and for files that cannot be read or hold other weights.
+svnet.Error for unknown names (the message says the nearest one), and for files that cannot be read or hold other
+weights.
 )";
 
 constexpr const char* kInitDoc = R"(__init__(self, name, weights=None, layer=None, seed=0)
 --
 
-As the class says.
+The class says what the parameters mean.
 )";
 
 constexpr const char* kFeaturesDoc = R"(features(self, images)
 --
 
-The features of pictures.
+The features of images.
 
-images : (N, H, W, 3) uint8, RGB, already at the input size (input_shape), not preprocessed; any strides.
-Returns (N, D) float32, D = dimension; the layer's output (H', W', C) is flattened in that order.
+images : (N, H, W, 3) uint8, RGB, of the size of input_shape, not preprocessed; any strides.
+Returns (N, D) float32 with D = dimension; an output (H', W', C) of the layer is flattened in this order.
 Raises svnet.Error for another dtype or shape.
 )";
 
@@ -57,15 +58,15 @@ struct LoadedBackbone {
   Backbone backbone;
   std::vector<std::string> unused_layers;
 
-  /// What pybind11 calls for the `self` of an instance whose __init__ has not been called, or has failed: methods would
-  /// get memory that holds no backbone. Hence made_of calls ::new.
+  /// pybind11 calls this if a method is called on an instance whose __init__ did not run or failed: the method would
+  /// get memory without a backbone. So this throws, and new_backbone calls ::new.
   static void* operator new(std::size_t) {
     throw py::type_error("svnet.Backbone has no network yet; call svnet.Backbone(name, ...)");
   }
   static void operator delete(void* memory) { ::operator delete(memory); }
 };
 
-std::unique_ptr<LoadedBackbone> made_of(Backbone backbone, std::vector<std::string> unused_layers) {
+std::unique_ptr<LoadedBackbone> new_backbone(Backbone backbone, std::vector<std::string> unused_layers) {
   return std::unique_ptr<LoadedBackbone>(::new LoadedBackbone{std::move(backbone), std::move(unused_layers)});
 }
 
@@ -75,16 +76,17 @@ std::unique_ptr<LoadedBackbone> load(const py::object& given_name, const py::obj
   const std::string output =
       given_layer.is_none() ? "" : text("Backbone", "layer", given_layer, "the name of a layer, or None");
   const std::uint64_t seed = whole_number("Backbone", "seed", given_seed);
+  const InferenceOptions options = inference_options_from_environment();
   if (given_weights.is_none()) {
     const Computing computing;
-    if (auto built_in = built_in_backbone(name, output)) return made_of(std::move(built_in->backbone), {});
-    return made_of(random_backbone(name, output, seed), {});
+    if (auto built_in = built_in_backbone(name, output, options)) return new_backbone(std::move(built_in->backbone), {});
+    return new_backbone(random_backbone(name, output, seed, options), {});
   }
   const std::string weights = path("Backbone", "weights", given_weights);
   const Computing computing;
   KerasLoadReport report;
-  Backbone backbone = read_backbone(name, weights, output, &report);
-  return made_of(std::move(backbone), std::move(report.unused));
+  Backbone backbone = read_backbone(name, weights, output, &report, options);
+  return new_backbone(std::move(backbone), std::move(report.unused));
 }
 
 Tensor preprocessed(const Preprocessing& how, const std::uint8_t* rgb, Index images) {
@@ -126,8 +128,8 @@ std::string class_doc() {
   std::vector<std::string> names;
   for (const auto& kind : backbone_kinds()) names.push_back(kind.name);
   std::string doc = kClassDoc;
-  const std::string hole = "{names}";
-  return doc.replace(doc.find(hole), hole.size(), joined_with(", ", names));
+  const std::string placeholder = "{names}";
+  return doc.replace(doc.find(placeholder), placeholder.size(), joined_with(", ", names));
 }
 
 }  // namespace
@@ -146,7 +148,7 @@ void bind_backbone(py::module_& module) {
       .def_property_readonly("input_shape", input_shape, "(H, W, 3) of an image.")
       .def_property_readonly(
           "unused_layers", [](const LoadedBackbone& self) { return self.unused_layers; },
-          "Layers of the weights file above the last one of the network.")
+          "Layers of the weights file that the network does not use, because they are above its output.")
       .def("__repr__", [](const LoadedBackbone& self) {
         return joined("<svnet.Backbone ", self.backbone.kind().name, ", layer ", self.backbone.output_name(), ", ",
                       self.backbone.dimension(), " features>");

@@ -3,7 +3,7 @@
 
 namespace svnet::python {
 
-// What each file of this folder adds to the module svnet._svnet.
+// Each function adds the contents of one file to the module svnet._svnet.
 void bind_camera_pose(pybind11::module_& module);
 void bind_clustering(pybind11::module_& module);
 void bind_cluster_metrics(pybind11::module_& module);

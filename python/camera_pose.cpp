@@ -11,14 +11,14 @@ namespace py = pybind11;
 constexpr const char* kDoc = R"(camera_pose(theta_deg, phi_deg, radius, centre, frame="paper")
 --
 
-Camera to world, for a camera on the upper half-sphere of a radius around the centre, that looks at the centre.
+The camera-to-world transform of a camera on the upper half-sphere around `centre`, looking at it.
 
 theta_deg, phi_deg : azimuth from the world's x axis and elevation above the table, in degrees; phi in [0, 90].
 radius : metres, positive. centre : (3,) array-like, metres; the world's z axis is vertical.
-frame : the camera's axes. "paper": z forward, x level and to the left of the picture, y upwards. "optical", ROS'
-REP-103: z forward, x right, y down.
-Returns (4, 4) float64, with which a point of the camera's frame is at camera_pose(...) @ [x, y, z, 1] in the world.
-Raises svnet.Error where the angles are out of range, lengths are not finite or not positive, or the frame is unknown.
+frame : the camera's axes. "paper": z forward, x level and to the left of the image, y upwards. "optical" (ROS,
+REP-103): z forward, x right, y down.
+Returns (4, 4) float64. It maps a point of the camera's frame to the world: camera_pose(...) @ [x, y, z, 1].
+Raises svnet.Error if an angle is out of range, a length is not finite, radius is not positive, or frame is unknown.
 )";
 
 py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& phi_deg, const py::object& radius,
@@ -27,7 +27,7 @@ py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& p
   const CameraPose pose{number(kFunction, "theta_deg", theta_deg), number(kFunction, "phi_deg", phi_deg)};
   const double radius_m = number(kFunction, "radius", radius);
   const auto [x, y, z] = point(kFunction, "centre", centre);
-  const CameraFrame axes = camera_frame_named(text(kFunction, "frame", frame, R"("paper" or "optical")"));
+  const CameraFrame axes = camera_frame_named(text(kFunction, "frame", frame, quoted_names<CameraFrame>().c_str()));
   const Eigen::Matrix4d matrix = svnet::look_at(pose, radius_m, {x, y, z}, axes).matrix();
   py::array_t<double> result({4, 4});
   for (Eigen::Index row = 0; row < 4; ++row)

@@ -11,7 +11,7 @@ namespace {
 
 namespace py = pybind11;
 
-/// `metric` of the two labellings, computed without the GIL.
+/// Returns `metric` of the two labellings, computed without the GIL.
 auto measured(const char* function, const py::object& given_true, const py::object& given_pred, auto metric) {
   const GivenLabels truth(function, "true", given_true), predicted(function, "pred", given_pred);
   const Computing computing;
@@ -29,38 +29,38 @@ NmiAverage average_named(const py::object& given) {
 constexpr const char* kFowlkesMallowsDoc = R"(fowlkes_mallows(true, pred)
 --
 
-Fowlkes-Mallows score TP / sqrt((TP + FP)(TP + FN)) over pairs of items; 0 where there is no true pair together.
+Fowlkes-Mallows score TP / sqrt((TP + FP)(TP + FN)) over pairs of items; 0 if TP is 0.
 
 true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in [0, 1].
-Raises svnet.Error where lengths or types do not fit, or there is no item.
+Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
 constexpr const char* kIndividualDoc = R"(fowlkes_mallows_individual(true, pred)
 --
 
-For each item the Fowlkes-Mallows score over the pairs that contain it; 0/0 counts as 0.
+The Fowlkes-Mallows score of each item over the pairs that contain it; 0/0 counts as 0.
 
 true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns (N,) float64 in [0, 1].
-Raises svnet.Error where lengths or types do not fit, or there is no item.
+Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
 constexpr const char* kMutualDoc = R"(normalized_mutual_info(true, pred, average="arithmetic")
 --
 
-Mutual information of two labellings over the mean of their entropies, as scikit-learn defines it.
+Mutual information of two labellings, divided by the mean of their entropies, as scikit-learn defines it.
 
 true, pred : (N,) arrays of whole numbers, the class and the cluster of each item.
 average : "arithmetic" or "geometric". Returns a float in [0, 1].
-Raises svnet.Error where lengths or types do not fit, there is no item, or the average is unknown.
+Raises svnet.Error if lengths or types do not fit, there is no item, or the average is unknown.
 )";
 
 constexpr const char* kPurityDoc = R"(purity(true, pred)
 --
 
-Share of the items whose class is the most frequent one of their cluster.
+Fraction of the items whose class is the most frequent one in their cluster.
 
 true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in (0, 1].
-Raises svnet.Error where lengths or types do not fit, or there is no item.
+Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
 constexpr const char* kAdjustedRandDoc = R"(adjusted_rand(true, pred)
@@ -69,7 +69,7 @@ constexpr const char* kAdjustedRandDoc = R"(adjusted_rand(true, pred)
 Rand index adjusted for chance, as scikit-learn defines it.
 
 true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in [-0.5, 1].
-Raises svnet.Error where lengths or types do not fit, or there is no item.
+Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
 }  // namespace

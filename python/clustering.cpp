@@ -20,8 +20,8 @@ std::vector<std::int32_t> all_rows(Index n) {
 constexpr const char* kWardDoc = R"(ward(features, n_clusters)
 --
 
-Agglomerative clustering with Ward's linkage, the partition of scikit-learn's
-AgglomerativeClustering(n_clusters, linkage="ward") where distances differ in float32, to which they are rounded.
+Agglomerative clustering with Ward's linkage. Distances are rounded to float32. If they all differ, the partition is that
+of scikit-learn's AgglomerativeClustering(n_clusters, linkage="ward").
 
 Parameters
 ----------
@@ -34,15 +34,15 @@ labels : (N,) int64, numbered from 0 in order of first appearance
 
 Raises
 ------
-svnet.Error where shapes, types or numbers do not fit, and for features that are not finite.
+svnet.Error if shapes, types or values do not fit, and for features that are not finite.
 )";
 
 constexpr const char* kAgglomerativeDoc = R"(agglomerative(features, n_clusters, linkage="ward")
 --
 
-Agglomerative clustering, the partition of scikit-learn's AgglomerativeClustering(n_clusters, linkage=linkage) where
-distances differ in float32, to which they are rounded. Of equally near pairs of clusters the one whose first items
-come first is merged.
+Agglomerative clustering. Distances are rounded to float32. If they all differ, the partition is that of scikit-learn's
+AgglomerativeClustering(n_clusters, linkage=linkage). In a tie, the pair of clusters whose first items come first is
+merged.
 
 Parameters
 ----------
@@ -56,7 +56,7 @@ labels : (N,) int64, numbered from 0 in order of first appearance
 
 Raises
 ------
-svnet.Error where shapes, types, numbers or names do not fit, and for features that are not finite.
+svnet.Error if shapes, types, values or names do not fit, and for features that are not finite.
 )";
 
 py::array_t<std::int64_t> agglomerated(const char* function, const py::object& given, const py::object& n_clusters,
@@ -87,25 +87,25 @@ py::array_t<std::int64_t> agglomerative(const py::object& features, const py::ob
 constexpr const char* kKMeansDoc = R"(kmeans(features, n_clusters, n_init=10, seed=0)
 --
 
-k-means with the semantics of scikit-learn's KMeans(algorithm="lloyd"): greedy k-means++ with 2 + floor(ln k) trials,
-then Lloyd, at most 300 iterations, tolerance 1e-4; of n_init runs the one with the lowest inertia.
+k-means as scikit-learn's KMeans(algorithm="lloyd"): greedy k-means++ with 2 + floor(ln k) trials, then Lloyd with at
+most 300 iterations and tolerance 1e-4. Of n_init runs, the one with the lowest inertia is returned.
 
 Parameters
 ----------
 features : (N, D) array of integers or floats, any strides
 n_clusters : int from 1 to N
 n_init : int from 1
-seed : int from 0 to 2^64 - 1; the same seed gives the same result, whatever the number of threads
+seed : int from 0 to 2^64 - 1; the same seed gives the same result for any number of threads
 
 Returns
 -------
-labels : (N,) int64, numbered from 0 in order of first appearance; fewer than n_clusters where there are fewer
-    distinct rows
+labels : (N,) int64, numbered from 0 in order of first appearance; fewer than n_clusters if there are fewer distinct
+    rows
 inertia : float, the sum of squared distances to the nearest centre
 
 Raises
 ------
-svnet.Error where shapes, types or numbers do not fit, and for features that are not finite.
+svnet.Error if shapes, types or values do not fit, and for features that are not finite.
 )";
 
 py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py::object& n_init,
@@ -114,7 +114,7 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
   const Index n = features.rows(), k = count_of("kmeans", "n_clusters", n_clusters);
   const KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init), .after_iteration = let_python_interrupt};
   const std::uint64_t seed = whole_number("kmeans", "seed", given_seed);
-  // Before memory is made for k clusters.
+  // Checked before memory for k clusters is allocated.
   check(k <= n, "[kmeans] cannot make ", k, " clusters of ", n, " points; 1 to ", n, " are possible");
   std::vector<std::int32_t> labels(n);
   double inertia;

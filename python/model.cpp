@@ -11,34 +11,35 @@ namespace {
 
 namespace py = pybind11;
 
-/// Poses scored between two looks for an interrupt.
+/// Poses that are scored between two checks for signals.
 constexpr std::size_t kPosesAtOnce = 1024;
 
 constexpr const char* kClassDoc =
-    R"(A trained SV-net with the backbone that feeds it: from a top image and camera poses to semantic scores. Made by
-Model.load. Safe to share between threads.
+    R"(A trained SV-net with its backbone: predicts the semantic scores of camera poses from a top image.
+
+Made by Model.load. Threads may share one.
 )";
 
 constexpr const char* kLoadDoc = R"(load(path)
 --
 
-The model of a file that svnet-train wrote (model.safetensors).
+Reads a model file that svnet-train wrote (model.safetensors).
 
 path : str, bytes or os.PathLike
-Raises svnet.Error for a file that cannot be read, is cut short, whose header is damaged,
-that holds weights that are not finite, or is no model.
+Raises svnet.Error for a file that cannot be read, is truncated, has a damaged header, holds weights that are not
+finite, or is not a model.
 )";
 
 constexpr const char* kScoreDoc = R"(score(self, image, angles_deg)
 --
 
-How informative the view from each camera pose is predicted to be.
+Predicts how informative the view from each camera pose is.
 
 Parameters
 ----------
-image : (H, W, 3) uint8, RGB, the object from above; any size and any strides, not preprocessed
-angles_deg : (M, 2) integers or floats, M at least 1: azimuth theta in [-360, 720] (a whole turn changes nothing) and
-    elevation phi in [0, 90] of each pose, in degrees; (90, 90) is the top view
+image : (H, W, 3) uint8, RGB, the object from above; any size and strides, not preprocessed
+angles_deg : (M, 2) integers or floats, M >= 1: azimuth theta in [-360, 720] (a full turn changes nothing) and elevation
+    phi in [0, 90] of each camera pose, in degrees; (90, 90) is the top view
 
 Returns
 -------
@@ -46,7 +47,8 @@ scores : (M,) float32 in [0, 1], in the order of the poses; higher is more infor
 
 Raises
 ------
-svnet.Error for another dtype or shape, for an image without pixels, and for angles out of range or not finite.
+svnet.Error for another dtype or shape, for an image without pixels, and for angles that are out of range or not
+finite.
 )";
 
 constexpr const char* kBestViewDoc = R"(best_view(self, image, angles_deg)
@@ -54,9 +56,9 @@ constexpr const char* kBestViewDoc = R"(best_view(self, image, angles_deg)
 
 The most informative of the given camera poses.
 
-image, angles_deg : as score takes them
-Returns (index, scores): the number, from 0, of the pose with the highest score, the first among equals, an int; and
-what score returns.
+image, angles_deg : as for score
+Returns (index, scores): the index (int) of the pose with the highest score, the first one in a tie; and the scores, as
+score returns them.
 Raises svnet.Error as score does.
 )";
 
@@ -79,7 +81,7 @@ std::vector<float> scores(const Predictor& self, const char* function, const py:
 std::unique_ptr<Predictor> load(const py::object& given) {
   const std::string file = path("Model.load", "path", given);
   const Computing computing;
-  return std::make_unique<Predictor>(std::filesystem::path(file));
+  return std::make_unique<Predictor>(std::filesystem::path(file), inference_options_from_environment());
 }
 
 py::array_t<float> score(const Predictor& self, const py::object& image, const py::object& angles_deg) {
@@ -91,8 +93,8 @@ py::tuple best_view_of(const Predictor& self, const py::object& image, const py:
   return py::make_tuple(best_view(values), array_of(std::span<const float>(values)));
 }
 
-/// Model has no __init__. Its __new__ refuses too: pybind11's would leave an instance without a Predictor, and hand
-/// methods memory that holds none.
+/// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a Predictor, and methods would
+/// use memory that holds none.
 void refuse_new(PyHeapTypeObject* type) {
   type->ht_type.tp_new = [](PyTypeObject*, PyObject*, PyObject*) -> PyObject* {
     PyErr_SetString(PyExc_TypeError, "svnet.Model is made by svnet.Model.load(path)");

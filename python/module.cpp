@@ -15,23 +15,25 @@ namespace py = pybind11;
 
 namespace {
 
-constexpr const char* kErrorDoc = "What the caller can mend: one line that says what was wrong, where, and what to do.";
+constexpr const char* kErrorDoc =
+    "An error that the caller can correct: one line that says what is wrong, where, and what to do.";
 
 constexpr const char* kSetThreadsDoc = R"(set_threads(n)
 --
 
-Computes with n threads from now on, 1 to 1024; waits for computations that run. Results do not depend on it, bit for
-bit. The default is SVNET_THREADS, else the number of CPUs that the process may use. Raises svnet.Error.
+Sets the number of threads of later computations, from 1 to 1024. Waits for running computations. Results have the same
+bits for any number of threads. Default: SVNET_THREADS, or else the number of CPUs that the process may use.
+Raises svnet.Error for another number.
 )";
 
-/// What is not UTF-8 in a message, such as the bytes of a path, is written as \xff.
+/// Raises `type` with a message. Bytes that are not UTF-8, for example in a path, are written as \xff.
 void raise_error(const py::object& type, const std::string& message) {
   const py::ssize_t size = message.size();
   const auto text = py::reinterpret_steal<py::object>(PyUnicode_DecodeUTF8(message.data(), size, "backslashreplace"));
   if (text) PyErr_SetObject(type.ptr(), text.ptr());
 }
 
-/// svnet.Error, which svnet::Error becomes from now on.
+/// Adds svnet.Error to the module, and translates svnet::Error to it.
 void bind_error(py::module_& module) {
   PYBIND11_CONSTINIT static py::gil_safe_call_once_and_store<py::object> storage;
   const py::object& type =
@@ -56,7 +58,7 @@ void set_threads(const py::object& n) {
 
 PYBIND11_MODULE(_svnet, module) {
   svnet::cap_from_environment();
-  // Docstrings start with the signature in the form that inspect and help() read.
+  // Docstrings start with the signature in the form that inspect and help() expect.
   py::options options;
   options.disable_function_signatures();
 

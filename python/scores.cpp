@@ -35,29 +35,29 @@ constexpr const char* kDoc =
     R"(semantic_scores(features, category, object, pose, problems=None, min_samples=None, seed=0, singletons="zero")
 --
 
-Semantic scores of views by Monte-Carlo: the mean Fowlkes-Mallows score, individual and global, over the random
-clustering problems that contain the view. A problem is a random choice of at least three categories, of objects of
-each, of a pose of each object and of a view of that pose, clustered with Ward's linkage.
+Semantic scores of views by Monte-Carlo: the mean individual and global Fowlkes-Mallows scores over the random
+clustering problems that contain the view. For a problem, at least three categories are drawn, then objects of each
+category, a pose of each object and a view of each pose. It is clustered with Ward's linkage.
 
 Parameters
 ----------
 features : (N, D) array of integers or floats, one row per view
 category, object, pose : (N,) arrays of whole numbers; objects are unique within a category, poses within an object
-problems : int, stop after this many problems
-min_samples : int, stop when every view was in this many problems (asked every 16384 problems)
-    At least one of the two is needed; of both, the first that is reached counts.
-seed : int from 0 to 2^64 - 1; the same seed gives the same bits, whatever the number of threads
-singletons : "zero" or "skip"; what the individual score of an item is that is alone in its category in the problem:
-    0, or left out of the mean
+problems : int N: stop after N problems
+min_samples : int N: stop once every view has been in at least N problems (checked every 16384 problems)
+    At least one of the two is needed; the first that is reached stops.
+seed : int from 0 to 2^64 - 1; the same seed gives the same bits for any number of threads
+singletons : the individual score of an item that is alone in its category in a problem. "zero": 0; "skip": the mean
+    leaves it out
 
 Returns
 -------
-dict of (N,) arrays: individual, global, standard_error (of individual) float64, count uint64 (problems that contained
-the view). A mean over nothing is NaN.
+dict of (N,) arrays: individual, global, standard_error (of individual), float64; count (problems that contain the
+view), uint64. The mean of no scores is NaN.
 
 Raises
 ------
-svnet.Error where shapes, types or numbers do not fit, for features that are not finite, and for fewer than three
+svnet.Error if shapes, types or values do not fit, for features that are not finite, and for fewer than three
 categories.
 )";
 

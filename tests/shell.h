@@ -6,13 +6,13 @@
 
 #include "temporary_folder.h"
 
-/// What a command line printed, and its exit status: negative, the signal that ended it.
+/// The output of a command line and its exit status; minus the signal if a signal ended it.
 struct Ran {
   int status;
   std::string out, err;
 };
 
-/// Runs shell commands in `folder`; what they print lies elsewhere.
+/// Runs shell commands in `folder`. Their output is kept outside of it.
 inline Ran run_shell(const std::filesystem::path& folder, const std::string& commands) {
   const TemporaryFolder output;
   const std::string out = output.path() / "out", err = output.path() / "err";

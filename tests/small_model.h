@@ -2,7 +2,7 @@
 #include "io/models/model_file.h"
 #include "models/backbone.h"
 
-/// A model with random numbers that is read and run within milliseconds: tiny_xception with a head of width 16.
+/// A model with random weights that runs within milliseconds: tiny_xception with a head of width 16.
 inline svnet::Model small_model(svnet::AngleEncoding angles = svnet::AngleEncoding::radians) {
   using namespace svnet;
   const Backbone backbone = random_backbone("tiny_xception", "", 2);
@@ -19,7 +19,7 @@ inline svnet::Model small_model(svnet::AngleEncoding angles = svnet::AngleEncodi
   return model;
 }
 
-/// A picture without symmetry, of any size.
+/// An image without symmetry, of any size.
 inline svnet::Image small_picture(svnet::Index height = 70, svnet::Index width = 50) {
   svnet::Image image{height, width, {}};
   for (svnet::Index y = 0; y < height; ++y)

@@ -1,4 +1,4 @@
-// small_model_file FILE: writes small_model() of small_model.h, for tests that are not in C++.
+// small_model_file FILE: writes small_model() of small_model.h, for tests in other languages.
 #include "small_model.h"
 
 int main(int argc, char** argv) {

@@ -8,7 +8,7 @@
 
 #include <stdlib.h>
 
-/// An empty folder of its own for one test, removed with all that is in it.
+/// An empty folder for one test. The destructor removes it with its contents.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -25,7 +25,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file, with the folders above it, and returns its full path.
+  /// Writes a file, creates its parent folders, and returns its full path.
   std::filesystem::path write(const std::filesystem::path& relative, std::string_view contents) const {
     const std::filesystem::path full = path_ / relative;
     std::filesystem::create_directories(full.parent_path());
@@ -39,7 +39,7 @@ class TemporaryFolder {
   std::filesystem::path path_;
 };
 
-/// All bytes of a file.
+/// The contents of a file.
 inline std::string file_contents(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   if (!file) throw std::runtime_error("cannot read " + path.string());

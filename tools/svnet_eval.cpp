@@ -1,7 +1,9 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
 #include "command/command.h"
+#include "config_option.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "train/config/config_file.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
 #include "train/stages/model.h"
@@ -12,7 +14,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What a run folder holds but its evaluation.json, which may be named again, and the configuration.
+/// The configuration and all files of a run folder but evaluation.json, which --json may name.
 std::vector<fs::path> files_of_run(const fs::path& folder, const fs::path& config) {
   std::vector<fs::path> files{config};
   for (const auto& entry : fs::directory_iterator(folder))
@@ -40,23 +42,19 @@ int main(int argc, char** argv) {
   Command command(
       "svnet-eval",
       "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
-      "and views.png: pictures of held-out objects from above, from where SV-net looks, and from the best view.",
+      "and views.png: held-out objects from above, from the view that SV-net chooses, and from the best view.",
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
   std::vector<std::string> selectors;
-  Index problems = 0;
-  command.app()
-      .add_option("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>")
-      ->required();
-  command.app()
-      .add_option("--problems", problems, "Number of random clustering problems (default: evaluation.problems)")
-      ->check(CLI::Range(Index{1}, Index{1} << 53));
-  command.app()
-      .add_option("--selectors", selectors, selectors_help())
-      ->delimiter(',')
-      ->check(CLI::IsMember(selector_names()))
-      ->type_name("NAMES");
-  command.app().add_option("--json", json, "Writes evaluation.json here too")->type_name("FILE");
+  Config given;  // by options
+  command.add("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>").required();
+  const Argument problems =
+      add_config_option(command, given, "--problems", "evaluation.problems").shows_default("evaluation.problems");
+  command.add("--selectors", selectors, selectors_help())
+      .separated_by_commas()
+      .one_of(selector_names())
+      .value_name("NAMES");
+  command.add("--json", json, "Writes evaluation.json here too").value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
@@ -65,18 +63,20 @@ int main(int argc, char** argv) {
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     const fs::path config_file = folder_given ? source / "config.yaml" : source;
     Config config = read_config(config_file);
+    if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = read_view_dataset(config.dataset.root);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
-    const Run run = make_run(config, std::move(dataset), folder, console.messages());
+    const Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
+                             inference_options_from_environment());
     FeaturesStage features(run);
     const Model model = trained_model(run, features);
     const std::vector<double> predicted = predicted_scores(run, features, model);
     const Scores scores = scores_stage(run, features);
     const EvaluationInputs inputs{features, scores, predicted};
-    const auto count = static_cast<std::uint64_t>(problems > 0 ? problems : config.evaluation.problems);
+    const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
     const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));

@@ -1,7 +1,6 @@
 // svnet-features: features of every picture of a dataset.
 #include "base/text.h"
 #include "command/command.h"
-#include "command/openblas_cap.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_hash.h"
 #include "io/models/backbone_file.h"
@@ -13,9 +12,10 @@ namespace svnet {
 namespace {
 
 BackboneWithOrigin source_of(const std::string& backbone, const std::string& layer,
-                             const std::filesystem::path& weights, KerasLoadReport& report) {
-  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report), file_sha256(weights)};
-  auto built_in = built_in_backbone(backbone, layer);
+                             const std::filesystem::path& weights, KerasLoadReport& report,
+                             const InferenceOptions& options) {
+  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report, options), file_sha256(weights)};
+  auto built_in = built_in_backbone(backbone, layer, options);
   check(built_in.has_value(), "no weights of ", backbone, " are built in; give a file by --weights");
   return {std::move(built_in->backbone), built_in->sha256};
 }
@@ -37,26 +37,21 @@ int run(int argc, char** argv, Communicator& communicator) {
   for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer;
   std::filesystem::path weights, images, output;
-  command.app()
-      .add_option("--backbone", backbone, "The network: " + joined_with(", ", names))
-      ->required()
-      ->type_name("NAME");
-  command.app()
-      .add_option("--weights", weights,
-                  "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
-      ->type_name("FILE");
-  command.app().add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
-  command.app().add_option("--output", output, "The file to write")->required()->type_name("FILE");
-  command.app()
-      .add_option("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
-      ->type_name("NAME");
+  command.add("--backbone", backbone, "The network: " + joined_with(", ", names)).required().value_name("NAME");
+  command.add("--weights", weights, "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
+      .value_name("FILE");
+  command.add("--images", images, "The dataset's folder").required().value_name("DIR");
+  command.add("--output", output, "The file to write").required().value_name("FILE");
+  command.add("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
+      .value_name("NAME");
   command.add_precision();
   return command.run(
       argc, argv,
       [&](Console& console) {
         if (communicator.is_root()) check_can_be_written(output, {weights});
         KerasLoadReport report;
-        const BackboneWithOrigin source = source_of(backbone, layer, weights, report);
+        const BackboneWithOrigin source =
+            source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
           console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
                               report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
@@ -73,7 +68,4 @@ int run(int argc, char** argv, Communicator& communicator) {
 }  // namespace
 }  // namespace svnet
 
-int main(int argc, char** argv) {
-  svnet::cap_openblas_from_environment(argv);  // may start the program again, which it must not once MPI has started
-  return svnet::main_with_communicator(argc, argv, "svnet-features", svnet::run);
-}
+int main(int argc, char** argv) { return svnet::main_with_communicator(argc, argv, "svnet-features", svnet::run); }

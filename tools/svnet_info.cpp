@@ -16,7 +16,7 @@ std::string machine_text() {
   const std::vector<std::string> sets = instruction_sets();
   return joined("svnet ", kVersion, "\ncpu: ", cpu_name(), "\ninstruction sets, best first: ", joined_with(", ", sets),
                 "\nkernels: ", sets.front(), " (SVNET_MAX_ISA forces a lower one)",
-                "\nmatrix products of OpenBLAS: ", openblas_get_corename(),
+                "\nmatrix products of OpenBLAS: ", openblas_get_corename(), " (OPENBLAS_CORETYPE chooses others)",
                 "\nthreads: ", Parallel::shared().threads());
 }
 
@@ -34,25 +34,23 @@ int main(int argc, char** argv) {
   std::string what, layer;
   bool plan = false;
   Index batch = 1;
-  command.app().add_option("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
-  auto* asked = command.app().add_flag("--plan", plan, "Print the steps of the compiled network, timed");
-  command.app()
-      .add_option("--batch", batch, "Pictures that run together (default 1)")
-      ->needs(asked)
-      ->check(CLI::Range(1, 1024));
-  command.app().add_option("--layer", layer, "The backbone's layer to stop at (default: the pooled one)")->needs(asked);
-  command.add_precision()->needs(asked);
+  command.add("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
+  const Argument asked = command.add_flag("--plan", plan, "Print the steps of the compiled network, timed");
+  command.add("--batch", batch, "Pictures that run together (default 1)").needs(asked).in_range(1, 1024);
+  command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
+  command.add_precision().needs(asked);
   return command.run(argc, argv, [&](Console& console) {
     if (what.empty()) {
       if (plan) wrong_usage("--plan takes a model file or the name of a backbone");
       return console.result(machine_text());
     }
     if (!plan) return console.result(description_of(what));
+    const InferenceOptions options = inference_options_from_environment(command.precision());
     const std::filesystem::path file = what;
     if (std::filesystem::exists(file) || file.has_extension() || file.has_parent_path()) {
       if (!layer.empty()) wrong_usage("--layer is for backbones, a model file has its own");
-      return console.result(model_plan(file, batch));
+      return console.result(model_plan(file, batch, options));
     }
-    console.result(backbone_plan(what, layer, batch));
+    console.result(backbone_plan(what, layer, batch, options));
   });
 }

@@ -41,25 +41,26 @@ int main(int argc, char** argv) {
                   "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
   fs::path model, image, poses_file, plot;
   bool grid = false, json = false;
-  CLI::App& app = command.app();
-  app.add_option("MODEL", model, "A model that svnet-train wrote (model.safetensors)")->required();
-  app.add_option("--image", image, "The object from above: a PNG, JPEG or WebP picture of any size")
-      ->required()
-      ->type_name("FILE");
-  auto* poses_option = app.add_option("--poses", poses_file, "The candidates: a CSV file with the header theta,phi");
-  poses_option->type_name("FILE");
-  app.add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
-      ->excludes(poses_option);
-  app.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
-  app.add_option(
-         "--plot", plot,
-         "Writes a PNG picture of the half-sphere from above: the top view in the centre, theta 0 to the right, "
-         "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red")
-      ->type_name("FILE");
+  command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
+  command.add("--image", image, "The object from above: a PNG, JPEG or WebP picture of any size")
+      .required()
+      .value_name("FILE");
+  const Argument poses_option =
+      command.add("--poses", poses_file, "The candidates: a CSV file with the header theta,phi");
+  poses_option.value_name("FILE");
+  command
+      .add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
+      .excludes(poses_option);
+  command.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
+  command
+      .add("--plot", plot,
+           "Writes a PNG picture of the half-sphere from above: the top view in the centre, theta 0 to the right, "
+           "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red")
+      .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file});
     const std::vector<CameraPose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
-    const Predictor predictor(model);
+    const Predictor predictor(model, inference_options_from_environment());
     const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);
     if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));
     console.result(json ? json_text(poses, scores) : table_text(poses, scores));

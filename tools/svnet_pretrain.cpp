@@ -3,7 +3,6 @@
 
 #include "base/text.h"
 #include "command/command.h"
-#include "command/number_check.h"
 #include "io/files/atomic_file.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
@@ -31,38 +30,37 @@ std::string origin_text(const Pretrained& result, const PretrainingOptions& opti
 int main(int argc, char** argv) {
   Command command("svnet-pretrain",
                   "Trains a backbone from scratch to tell the categories of a dataset (category/object/pose/"
-                  "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on: "
-                  "how many of their pictures are recognised says how well the backbone learnt.",
+                  "PHI_THETA.png) apart, and writes its weights. The last objects of each category are not trained on; "
+                  "the share of their images that is recognised says how well the backbone learnt.",
                   "svnet-pretrain --images runs/rendered --exclude comb,knife --output tiny_xception.safetensors");
   std::filesystem::path images, output;
   PretrainingOptions options;
   std::vector<std::string> names;
   for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
-  CLI::App& app = command.app();
-  app.add_option("--images", images, "The dataset's folder")->required()->type_name("DIR");
-  app.add_option("--output", output, "The file to write, *.safetensors")->required()->type_name("FILE");
-  app.add_option("--backbone", options.backbone, "The network: " + joined_with(", ", names) + " (tiny_xception)")
-      ->type_name("NAME");
-  app.add_option("--exclude", options.exclude, "Categories that take no part, with commas between them")
-      ->delimiter(',');
-  app.add_option("--validation-objects", options.validation_objects,
-                 "The last so many objects of each category are not trained on (1)")
-      ->check(CLI::Range(0, 1000000));
-  app.add_option("--epochs", options.epochs, joined("Passes over the pictures (", options.epochs, ")"))
-      ->check(CLI::Range(1, 100000));
-  app.add_option("--batch", options.batch_size, joined("Pictures of a step (", options.batch_size, ")"))
-      ->check(CLI::Range(2, 4096));
-  app.add_option("--learning-rate", options.learning_rate,
-                 "The highest learning rate; it warms up and falls to 0 by half a cosine (0.002)")
-      ->check(positive_number());
-  app.add_option("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)")
-      ->check(non_negative_number());
-  app.add_option("--seed", options.seed, "Seed of weights, order and changes of the pictures (0)")
-      ->check(CLI::Range(Index{0}, Index{1} << 53));
+  command.add("--images", images, "The dataset's folder").required().value_name("DIR");
+  command.add("--output", output, "The file to write, *.safetensors").required().value_name("FILE");
+  command.add("--backbone", options.backbone, "The network: " + joined_with(", ", names) + " (tiny_xception)")
+      .value_name("NAME");
+  command.add("--exclude", options.exclude, "Categories that take no part, with commas between them")
+      .separated_by_commas();
+  command
+      .add("--validation-objects", options.validation_objects,
+           "The last N objects of each category are not trained on (1)")
+      .in_range(0, 1000000);
+  command.add("--epochs", options.epochs, joined("Passes over the images (", options.epochs, ")")).in_range(1, 100000);
+  command.add("--batch", options.batch_size, joined("Images in a step (", options.batch_size, ")")).in_range(2, 4096);
+  command
+      .add("--learning-rate", options.learning_rate,
+           "The highest learning rate; it warms up and falls to 0 by half a cosine (0.002)")
+      .positive();
+  command.add("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)").non_negative();
+  command.add("--seed", options.seed, "Seed of the weights and of the order and changes of the images (0)")
+      .in_range(0, Index{1} << 53);
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     check_can_be_written(output);
     const ViewDataset dataset = read_view_dataset(images);
+    options.inference = inference_options_from_environment();
     const Pretrained result = pretrain(dataset, options, console.messages());
     write_backbone(output, result.backbone, origin_text(result, options));
     console.result(joined(output.string(), ": ", result.backbone.kind().name, ", ", result.categories.size(),

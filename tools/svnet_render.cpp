@@ -1,7 +1,6 @@
 // svnet-render: renders a dataset of views in simulation (simulation/rendered_dataset.h).
 #include "base/text.h"
 #include "command/command.h"
-#include "command/number_check.h"
 #include "simulation/rendered_dataset.h"
 
 using namespace svnet;
@@ -30,29 +29,33 @@ int main(int argc, char** argv) {
                   "svnet-render --output runs/tools --categories hammer,wrench,pliers --objects 3 --size 160\n"
                   "svnet-render --output runs/mine --meshes meshes --unit 0.001");
   RenderOptions options;
-  CLI::App& app = command.app();
-  app.add_option("--output", options.output, "The folder to make")->required();
-  app.add_option("--categories", options.categories,
-                 "Some categories, with commas between them (all " + std::to_string(catalogue_names().size()) + ": " +
-                     joined_with(", ", catalogue_names()) + ")")
-      ->delimiter(',');
-  app.add_option("--objects", options.objects, "Objects of each category (5; further ones are mixtures of the first 5)")
-      ->check(CLI::Range(1, 999));
-  app.add_option("--poses", options.poses, "Poses of each object (3)")->check(CLI::Range(1, 99));
-  app.add_option("--size", options.size, "Height and width of the pictures in pixels (224)")
-      ->check(CLI::Range(32, 2048));
-  app.add_option("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
-      ->check(CLI::Range(Index{0}, Index{1} << 53));
-  auto* meshes = app.add_option("--meshes", options.meshes,
-                                "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb, "
-                                ".gltf), or CATEGORY/NAME/ with a mesh in it. A mesh that cannot be used is left out "
-                                "and named; the exit status is 1 only if no object is collected");
-  app.add_option("--unit", options.metres_per_unit,
-                 "Metres per unit of all meshes; objects may be 1 mm to 1 m long (default: metres; centimetres or "
-                 "millimetres for a mesh that only makes sense so, in a line of its own)")
-      ->check(positive_number())
-      ->needs(meshes);
+  command.add("--output", options.output, "The folder to make").required();
+  command
+      .add("--categories", options.categories,
+           "Some categories, with commas between them (all " + std::to_string(catalogue_names().size()) + ": " +
+               joined_with(", ", catalogue_names()) + ")")
+      .separated_by_commas();
+  command.add("--objects", options.objects, "Objects of each category (5; further ones are mixtures of the first 5)")
+      .in_range(1, 999);
+  command.add("--poses", options.poses, "Poses of each object (3)").in_range(1, 99);
+  command.add("--size", options.size, "Height and width of the pictures in pixels (224)").in_range(32, 2048);
+  command.add("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
+      .in_range(0, Index{1} << 53);
+  const Argument meshes =
+      command.add("--meshes", options.meshes,
+                  "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb, .gltf), or "
+                  "CATEGORY/NAME/ with a mesh in it. A mesh that cannot be used is left out and named; the exit status "
+                  "is 1 only if no object is collected");
+  double metres_per_unit = 1;
+  const Argument unit =
+      command
+          .add("--unit", metres_per_unit,
+               "Metres per unit of all meshes; objects may be 1 mm to 1 m long (default: metres; centimetres or "
+               "millimetres for a mesh that only makes sense so, in a line of its own)")
+          .positive()
+          .needs(meshes);
   return command.run(argc, argv, [&](Console& console) {
+    if (unit.given()) options.metres_per_unit = metres_per_unit;
     const RenderSummary made = render_dataset(options, console.messages());
     console.result(joined(made.pictures, " pictures of ", made.poses, " poses in ", options.output.string(),
                           objects_left_out(made), made.left_out > 0 ? joined("; ", made.left_out, " left out") : "",

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "command/command.h"
-#include "command/number_check.h"
 #include "io/files/atomic_file.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
@@ -29,7 +28,7 @@ struct Options {
   double diagonal_m = 0, lowest_phi_deg = 0;
   Index fibonacci = 0;
   bool largest = false;
-  std::string frame = "optical";
+  std::string frame = name_of(CameraFrame::optical);
 };
 
 struct CameraView {
@@ -175,42 +174,44 @@ int main(int argc, char** argv) {
                   "svnet-views camera.json --centre 0.4 0 0.05 --diagonal 0.2 --json views.json --plot views.png\n"
                   "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
   Options options;
-  CLI::App& app = command.app();
-  app.add_option(
-         "CAMERA", options.camera,
-         "JSON: width, height, fx, fy, cx, cy in pixels; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of "
-         "the optical frame in the world, z upwards)")
-      ->required();
-  auto* centre = app.add_option("--centre", options.centre_m, "The object's geometric centre in the world, metres")
-                     ->expected(3)
-                     ->type_name("X Y Z");
-  auto* diagonal = app.add_option("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres")
-                       ->check(positive_number());
-  centre->needs(diagonal);
-  diagonal->needs(centre);
-  auto* background = app.add_option("--background", options.background,
-                                    "The empty table: a picture, and depth as 16-bit PNG (mm) or .npy (m)")
-                         ->expected(2);
-  auto* current = app.add_option("--current", options.current, "The same with the object")->expected(2);
-  background->needs(current)->excludes(centre);
-  current->needs(background);
-  app.add_flag("--largest", options.largest, "Of several objects take the largest")->needs(current);
-  app.add_option("--steps", options.steps, "A folder for pictures of each step of the localisation")->needs(current);
-  auto* poses = app.add_option("--poses", options.poses, "CSV with the header theta,phi in place of the paper's grid");
-  auto* fibonacci =
-      app.add_option("--fibonacci", options.fibonacci, "N poses spread evenly over the half-sphere instead")
-          ->check(CLI::Range(1, 100000))
-          ->excludes(poses);
-  app.add_option("--lowest-phi", options.lowest_phi_deg, "Their lowest elevation in degrees (0)")->needs(fibonacci);
-  app.add_option("--reachable", options.reachable,
-                 "CSV with the header theta,phi of the poses that the robot can reach");
-  app.add_option("--frame", options.frame,
-                 "Axes of the orientation: optical (ROS: z forward, x right, y down; default) or "
-                 "paper (z forward, x left, y up)")
-      ->check(CLI::IsMember({"optical", "paper"}));
-  app.add_option("--csv", options.csv, "Writes CSV to a file");
-  app.add_option("--json", options.json, "Writes JSON to a file");
-  app.add_option("--plot", options.plot, "Writes a picture of the half-sphere from above: filled dots can be reached");
+  command
+      .add("CAMERA", options.camera,
+           "JSON: width, height, fx, fy, cx, cy in pixels; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of "
+           "the optical frame in the world, z upwards)")
+      .required();
+  const Argument centre =
+      command.add("--centre", options.centre_m, "The object's geometric centre in the world, metres")
+          .exactly(3)
+          .value_name("X Y Z");
+  const Argument diagonal =
+      command.add("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres").positive();
+  centre.needs(diagonal);
+  diagonal.needs(centre);
+  const Argument background = command
+                                  .add("--background", options.background,
+                                       "The empty table: a picture, and depth as 16-bit PNG (mm) or .npy (m)")
+                                  .exactly(2);
+  const Argument current = command.add("--current", options.current, "The same with the object").exactly(2);
+  background.needs(current).excludes(centre);
+  current.needs(background);
+  command.add_flag("--largest", options.largest, "Of several objects take the largest").needs(current);
+  command.add("--steps", options.steps, "A folder for pictures of each step of the localisation").needs(current);
+  const Argument poses =
+      command.add("--poses", options.poses, "CSV with the header theta,phi in place of the paper's grid");
+  const Argument fibonacci =
+      command.add("--fibonacci", options.fibonacci, "N poses spread evenly over the half-sphere instead")
+          .in_range(1, 100000)
+          .excludes(poses);
+  command.add("--lowest-phi", options.lowest_phi_deg, "Their lowest elevation in degrees (0)").needs(fibonacci);
+  command.add("--reachable", options.reachable, "CSV with the header theta,phi of the poses that the robot can reach");
+  command
+      .add("--frame", options.frame,
+           "Axes of the orientation: optical (ROS: z forward, x right, y down; default) or "
+           "paper (z forward, x left, y up)")
+      .one_of(names_of<CameraFrame>());
+  command.add("--csv", options.csv, "Writes CSV to a file");
+  command.add("--json", options.json, "Writes JSON to a file");
+  command.add("--plot", options.plot, "Writes a picture of the half-sphere from above: filled dots can be reached");
   return command.run(argc, argv, [&](Console& console) {
     if (options.current.empty() && options.centre_m.empty())
       wrong_usage("either --centre and --diagonal, or --background and --current");

@@ -1,12 +1,12 @@
-// The C++17 interface of svnet: svnet.h with exceptions and ownership. Header-only, so that the compiler and standard
-// library of the caller need not be those that the library was built with.
+// The C++17 interface of svnet: svnet.h with exceptions and ownership. Header-only, so that the caller may use another
+// compiler and standard library than those that built libsvnet.
 //
 //   svnet::ViewModel model("model.safetensors");
 //   const std::vector<float> features = model.embed({pixels, height, width});
 //   const svnet::CameraPose poses[] = {{0, 45}, {90, 60}};
 //   const svnet::BestView best = model.best_view(features, poses, 2);
 //
-// Units, ranges and thread safety are those of svnet.h.
+// svnet.h describes units, ranges and thread safety.
 #ifndef SVNET_SVNET_HPP
 #define SVNET_SVNET_HPP
 
@@ -23,7 +23,7 @@
 namespace svnet {
 inline namespace v0 {
 
-// What a function of svnet.h reported: its status and one line of text.
+// A failure of a function of svnet.h: its status and one line of text.
 class StatusError : public std::runtime_error {
  public:
   StatusError(svnet_status status, const std::string& text) : std::runtime_error(text), status_(status) {}
@@ -33,13 +33,13 @@ class StatusError : public std::runtime_error {
   svnet_status status_;
 };
 
-// In degrees.
+// A camera pose in degrees.
 struct CameraPose {
   double theta_deg, phi_deg;
 };
 static_assert(sizeof(CameraPose) == 2 * sizeof(double), "poses are passed as pairs of doubles");
 
-// A view of pixels that the caller owns. stride_bytes 0: rows follow each other without gaps.
+// Pixels that the caller owns. stride_bytes: as for svnet_embed; 0: rows without gaps.
 struct ImageView {
   const std::uint8_t* pixels;
   std::int32_t height, width;
@@ -48,7 +48,7 @@ struct ImageView {
 };
 
 struct BestView {
-  std::size_t index;  // of the pose with the highest score, the first among equals
+  std::size_t index;  // of the pose with the highest score, the first one in a tie
   float score;
 };
 
@@ -69,7 +69,7 @@ inline std::string version() { return svnet_version(); }
 
 inline void set_threads(int threads) { detail::check(svnet_set_threads(threads)); }
 
-// A trained model; movable, not copyable. All functions throw StatusError, or std::bad_alloc, where svnet.h fails.
+// A trained model; movable, not copyable. All functions throw StatusError or std::bad_alloc if svnet.h fails.
 class ViewModel {
  public:
   explicit ViewModel(const std::string& path) {
@@ -80,7 +80,7 @@ class ViewModel {
 
   std::size_t feature_count() const { return svnet_feature_count(model_.get()); }
 
-  // feature_count() features of a top image.
+  // Returns the feature_count() features of a top image.
   std::vector<float> embed(const ImageView& image) const {
     std::vector<float> features(feature_count());
     const std::size_t tight = static_cast<std::size_t>(image.width) * detail::pixel_bytes(image.format);

@@ -1,4 +1,4 @@
-"""Semantic view selection: features of images, clusterings of them, the semantic scores of views, and their prediction.
+"""Semantic view selection: features of images, clustering, semantic scores of views, and their prediction.
 
     import svnet
     backbone = svnet.Backbone("mobilenet_v2", weights="mobilenet_v2.h5")
@@ -6,13 +6,13 @@
     labels = svnet.ward(features, n_clusters=8)
     print(svnet.fowlkes_mallows(category, labels))
     scores = svnet.semantic_scores(features, category, object, pose, min_samples=10000)
-    model = svnet.Model.load("model.safetensors")             # what svnet-train wrote
+    model = svnet.Model.load("model.safetensors")             # written by svnet-train
     index, scores = model.best_view(top_image, [[0, 45], [90, 60]])  # (H, W, 3) uint8; theta, phi in degrees
     camera_to_world = svnet.camera_pose(90, 60, radius=0.7, centre=(0, 0, 0.05), frame="optical")
 
-NumPy in, NumPy out. Features, labels and angles may be of any integer or float dtype and have any strides. Everything releases
-the GIL while it computes, and may be called from several threads. Results are the same bits for any number of threads.
-What a caller can mend is raised as svnet.Error, a ValueError.
+Arguments and results are NumPy arrays. Features, labels and angles may have any integer or float dtype and any strides.
+All functions release the GIL while they compute, and may be called from several threads. Results have the same bits for
+any number of threads. An error that the caller can correct is raised as svnet.Error, a ValueError.
 """
 
 from ._svnet import (

@@ -1,4 +1,4 @@
-# Types of the module; what the arguments mean, with shapes and units, is in the docstrings.
+# Types of the module. The docstrings describe the arguments, with shapes and units.
 import os
 from typing import Literal, Optional, SupportsIndex, TypedDict, Union
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdlib>
 #include <fstream>
 
 #include <hwy/targets.h>
 
+#include "base/environment.h"
 #include "base/error.h"
 #include "base/text.h"
 
@@ -43,7 +43,7 @@ void cap_instruction_set(const std::string& name) {
 }
 
 void cap_from_environment() {
-  if (const char* name = std::getenv("SVNET_MAX_ISA"); name != nullptr && *name != '\0') cap_instruction_set(name);
+  if (const std::string name = environment_variable("SVNET_MAX_ISA"); !name.empty()) cap_instruction_set(name);
 }
 
 }  // namespace svnet

@@ -11,9 +11,10 @@ std::string cpu_name();
 /// …).
 std::vector<std::string> instruction_sets();
 
-/// Keeps kernels from using instruction sets better than `name`. Throws Error for an unknown name or one that this
-/// machine lacks. Every program calls cap_from_environment first, which applies SVNET_MAX_ISA where it is set.
+/// Keeps svnet's own kernels from using instruction sets better than `name`. OpenBLAS is not affected. Throws Error for
+/// an unknown name or one that this machine lacks.
 void cap_instruction_set(const std::string& name);
+/// The same with SVNET_MAX_ISA, if it is set. Every program calls this before anything else.
 void cap_from_environment();
 
 }  // namespace svnet

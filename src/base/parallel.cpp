@@ -3,7 +3,6 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
-#include <cstdlib>
 #include <exception>
 #include <limits>
 #include <mutex>
@@ -17,6 +16,7 @@
 #include <unistd.h>
 
 #include "base/communicator.h"
+#include "base/environment.h"
 #include "base/error.h"
 
 namespace svnet {
@@ -49,10 +49,10 @@ int checked_threads(long threads, const char* where) {
 }
 
 int initial_threads() {
-  const char* text = std::getenv("SVNET_THREADS");
-  if (text == nullptr || *text == '\0') return affinity_count();
+  const std::string text = environment_variable("SVNET_THREADS");
+  if (text.empty()) return affinity_count();
   char* end = nullptr;
-  const long threads = std::strtol(text, &end, 10);
+  const long threads = std::strtol(text.c_str(), &end, 10);
   check(*end == '\0', "[SVNET_THREADS] '", text, "' is not a whole number");
   return checked_threads(threads, "SVNET_THREADS");
 }

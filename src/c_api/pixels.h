@@ -7,8 +7,7 @@
 
 namespace svnet {
 
-/// A copy as RGB of pixels laid out as svnet_embed takes them. Throws Error for sizes, strides and formats that are not
-/// possible.
+/// Copies pixels in the layout of svnet_embed to an RGB image. Throws Error for an impossible size, stride or format.
 Image image_of(const std::uint8_t* pixels, std::int32_t height, std::int32_t width, std::size_t stride_bytes,
                svnet_pixel_format format);
 

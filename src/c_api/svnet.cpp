@@ -1,4 +1,4 @@
-// The C interface over Predictor: checks pointers and sizes, turns exceptions into a status and a text.
+// The C interface to Predictor: checks pointers and sizes, and converts exceptions to a status and a text.
 #include "svnet/svnet.h"
 
 #include <algorithm>
@@ -10,8 +10,6 @@
 #include "base/fixed_threads.h"
 #include "base/text.h"
 #include "base/version.h"
-#include "nn/kernels/convolution_choice.h"
-#include "nn/kernels/precision.h"
 #include "pixels.h"
 #include "predict/predictor.h"
 
@@ -23,7 +21,7 @@ namespace {
 
 using namespace svnet;
 
-/// A fixed buffer: keeping a message must not fail for want of memory.
+/// A fixed buffer, so that storing a message cannot run out of memory.
 thread_local char last_error[1024] = "";
 
 svnet_status failed(svnet_status status, const char* text) {
@@ -33,7 +31,7 @@ svnet_status failed(svnet_status status, const char* text) {
   return status;
 }
 
-/// SVNET_OK where `body` returns, the status of what it throws where not: `user_error` for Error.
+/// Runs `body`. Returns SVNET_OK, or the status of the exception that it throws; `user_error` for Error.
 template <class Body>
 svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
   try {
@@ -50,7 +48,7 @@ svnet_status guarded(svnet_status user_error, const Body& body) noexcept {
   }
 }
 
-/// guarded, for bodies that compute: svnet_set_threads waits for them.
+/// guarded for bodies that compute; svnet_set_threads waits for them.
 template <class Body>
 svnet_status computed(svnet_status user_error, const Body& body) noexcept {
   return guarded(user_error, [&] {
@@ -59,12 +57,11 @@ svnet_status computed(svnet_status user_error, const Body& body) noexcept {
   });
 }
 
-/// Throws Error for a variable whose value is none, or not for this machine.
-void check_environment() {
+/// The choices of the environment. Throws Error for a value that is unknown or not possible on this machine.
+InferenceOptions options_from_environment() {
   static std::once_flag once;
   std::call_once(once, cap_from_environment);
-  kernels::convolution_from_environment();
-  kernels::check_available(kernels::precision_from_environment());
+  return inference_options_from_environment();
 }
 
 void check_given(const void* pointer, const char* function, const char* name) {
@@ -99,14 +96,16 @@ svnet_status svnet_set_threads(int threads) {
 }
 
 svnet_status svnet_model_load(const char* path, svnet_model** model) {
+  InferenceOptions options;
   const svnet_status arguments = guarded(SVNET_INVALID_ARGUMENT, [&] {
     check_given(model, "svnet_model_load", "model");
     *model = nullptr;
     check_given(path, "svnet_model_load", "path");
-    check_environment();
+    options = options_from_environment();
   });
   if (arguments != SVNET_OK) return arguments;
-  return computed(SVNET_INVALID_MODEL, [&] { *model = new svnet_model{Predictor(std::filesystem::path(path))}; });
+  return computed(SVNET_INVALID_MODEL,
+                  [&] { *model = new svnet_model{Predictor(std::filesystem::path(path), options)}; });
 }
 
 void svnet_model_free(svnet_model* model) { delete model; }

@@ -3,18 +3,14 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "image/opencv_image.h"
+
 namespace svnet {
 namespace {
 
 constexpr int kFont = cv::FONT_HERSHEY_SIMPLEX;
 constexpr Index kLabelMargin = 8;                                   // on both sides of a label
 constexpr Index kLabelRise = 5, kTitleRise = 5, kCaptionDrop = 12;  // of a baseline, from the middle or edge of a cell
-
-/// The pixels of an image, shared with it. Requires: not written through if the image is const.
-cv::Mat3b matrix_of(const Image& image) {
-  return {static_cast<int>(image.height), static_cast<int>(image.width),
-          reinterpret_cast<cv::Vec3b*>(const_cast<std::uint8_t*>(image.rgb.data()))};
-}
 
 Image white(Index height, Index width) {
   return {height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * height * width), 255)};
@@ -56,7 +52,7 @@ Image resized_to_fit(const Image& picture, Index side) {
   const cv::Mat3b source = matrix_of(picture);
   const double fit = static_cast<double>(side) / static_cast<double>(std::max(picture.height, picture.width));
   const auto fitted = [fit](int length) { return std::max<Index>(1, static_cast<int>(length * fit)); };
-  const Image result = white(fitted(source.rows), fitted(source.cols));
+  Image result = white(fitted(source.rows), fitted(source.cols));
   cv::Mat3b pixels = matrix_of(result);
   cv::resize(source, pixels, pixels.size(), 0, 0, fit < 1 ? cv::INTER_AREA : cv::INTER_LINEAR);
   return result;
@@ -70,7 +66,8 @@ Image contact_sheet(std::span<const SheetLine> lines, const SheetLayout& layout)
   cv::Mat3b pixels = matrix_of(sheet);
   Index y = layout.margin + layout.text;
   for (const SheetLine& line : lines) {
-    write_text(pixels, line.label, kLabelMargin, y + layout.cell / 2 + kLabelRise, layout.font_size);
+    if (!line.label.empty())
+      write_text(pixels, line.label, kLabelMargin, y + layout.cell / 2 + kLabelRise, layout.font_size);
     Index x = left;
     for (const SheetGroup& group : line.groups) {
       if (!group.title.empty()) write_text(pixels, group.title, x, y - kTitleRise, layout.font_size);

@@ -4,12 +4,13 @@
 
 namespace svnet {
 
-Backbone::Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer)
+Backbone::Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer,
+                   const InferenceOptions& options)
     : kind_(&kind), graph_(graph.up_to(output_layer(kind, graph, layer))) {
   for (const GraphNode& node : graph_.nodes())
     for (const ParameterSpec& spec : node.parameters)
       parameters_.set(node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
-  inference_ = std::make_shared<Inference>(graph_, parameters_, graph_.output());
+  inference_ = std::make_shared<Inference>(graph_, parameters_, graph_.output(), options);
 }
 
 Tensor Backbone::features(const Tensor& batch) const {
@@ -25,11 +26,12 @@ Tensor Backbone::batch(std::span<const Image> images) const {
   return batch;
 }
 
-Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed) {
+Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed,
+                         const InferenceOptions& options) {
   const BackboneKind& kind = backbone_kind(name);
   const Graph whole = kind.graph(kind.preprocessing.height, true);
   const Graph graph = whole.up_to(output_layer(kind, whole, layer));
-  return {kind, graph, initial_parameters(graph, seed), layer};
+  return {kind, graph, initial_parameters(graph, seed), layer, options};
 }
 
 }  // namespace svnet

@@ -15,7 +15,8 @@ class Backbone {
  public:
   /// `graph` as kind.graph makes it, `layer` as output_layer takes it. Layers above that one and their parameters are
   /// not kept, and need not be given. Throws Error if the graph has no such layer.
-  Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer = "");
+  Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer = "",
+           const InferenceOptions& options = {});
 
   const BackboneKind& kind() const { return *kind_; }
   const Graph& graph() const { return graph_; }
@@ -40,6 +41,7 @@ class Backbone {
 };
 
 /// The backbone with seeded random weights. It has the layers of the top only if `layer` is one of them.
-Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed);
+Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed,
+                         const InferenceOptions& options = {});
 
 }  // namespace svnet

@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMomentum = 0.999;
 
-/// Expansion (but in block 0), 3×3 depthwise convolution, projection; a shortcut where shapes allow one.
+/// Expansion (except in block 0), 3×3 depthwise convolution, projection; a shortcut if the shapes are equal.
 NodeId inverted_residual(Graph& g, NodeId input, int number, Index expansion, Index filters, Index stride) {
   const std::string prefix = number == 0 ? "expanded_conv_" : "block_" + std::to_string(number) + "_";
   NodeId x = input;

@@ -5,8 +5,8 @@
 
 #include <mpi.h>
 
+#include "base/environment.h"
 #include "base/error.h"
-#include "launcher.h"
 
 namespace svnet {
 namespace {
@@ -51,8 +51,6 @@ class MpiCommunicator : public Communicator {
 };
 
 }  // namespace
-
-bool built_with_mpi() { return true; }
 
 int main_with_communicator(int argc, char** argv, const char*,
                            int (*run)(int argc, char** argv, Communicator& communicator)) {

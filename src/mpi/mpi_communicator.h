@@ -3,9 +3,6 @@
 
 namespace svnet {
 
-/// Whether this build has MPI.
-bool built_with_mpi();
-
 /// The main function of a program whose processes share the work. Calls `run` with the communicator of the processes
 /// that mpirun or srun started, or of this process alone. `name`: of the program, for messages.
 ///

@@ -1,11 +1,9 @@
 #include <iostream>
 
-#include "launcher.h"
+#include "base/environment.h"
 #include "mpi/mpi_communicator.h"
 
 namespace svnet {
-
-bool built_with_mpi() { return false; }
 
 int main_with_communicator(int argc, char** argv, const char* name,
                            int (*run)(int argc, char** argv, Communicator& communicator)) {

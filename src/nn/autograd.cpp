@@ -32,7 +32,7 @@ void accumulate(Tensor& a, const Tensor& b) {
 
 namespace {
 
-/// sum += gradient, without touching numbers that somebody else may hold.
+/// sum += gradient. Copies elements that other handles share before it changes them.
 void add_to(Tensor& sum, Tensor gradient) {
   if (!sum.defined()) {
     sum = std::move(gradient);
@@ -84,7 +84,7 @@ const GradientMap::Product* GradientMap::product_of(const Tensor& parameter) con
   return found != gradients_.end() && found->second.product.x.defined() ? &found->second.product : nullptr;
 }
 
-/// One run of the tape: the nodes reached so far that wait for their turn, and their gradients.
+/// One run of the tape. It holds the nodes that were reached and have not run yet, with their gradients.
 class Pass {
  public:
   explicit Pass(Sink& sink) : sink_(sink) {}

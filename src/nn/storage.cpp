@@ -13,13 +13,12 @@ namespace {
 constexpr std::align_val_t kAlign{kAlignment};
 constexpr std::size_t kSmallest = std::size_t{64} << 10;
 #ifdef __SANITIZE_ADDRESS__
-constexpr std::size_t kMostKept = 0;  // a use after free must be seen
+constexpr std::size_t kMostKept = 0;  // so that the sanitizer sees a use after free
 #else
 constexpr std::size_t kMostKept = std::size_t{256} << 20;
 #endif
 
-/// Freed blocks by size. Blocks of a shared pointer may outlive every other static object, so this one is never
-/// destroyed.
+/// Freed blocks by size. Never destroyed: a shared pointer may free its block after every static object is gone.
 class FreeBlocks {
  public:
   static FreeBlocks& instance() {

@@ -31,19 +31,19 @@ namespace autograd {
 class Node;
 }
 
-/// A shared handle to contiguous numbers in 64-byte-aligned storage, with its shape, and with a node of the autograd
-/// tape where a gradient flows through it. Copying a handle shares the numbers; there are no strides and no views.
-/// Handles may be copied and read by several threads; the numbers follow the usual rules for shared memory.
+/// A shared handle to an array in contiguous, 64-byte-aligned storage, with its shape. A tensor that takes part in the
+/// computation of a gradient also has a node of the autograd tape. Copies of a handle share the elements; there are no
+/// strides and no views. Several threads may copy and read handles; elements follow the usual rules of shared memory.
 class Tensor {
  public:
-  /// Empty handle: defined() is false and nothing else may be asked of it.
+  /// An empty handle. Its defined() is false; all other functions require a handle that is not empty.
   Tensor() = default;
 
-  /// Numbers are not initialised.
+  /// Elements are not initialised.
   static Tensor empty(Shape shape, DType dtype = DType::f32);
   static Tensor zeros(Shape shape, DType dtype = DType::f32);
   static Tensor full(Shape shape, double value, DType dtype = DType::f32);
-  /// A copy of `values`, whose number must be that of the shape (Error otherwise).
+  /// A copy of `values`. Throws Error unless there are as many as the shape has elements.
   template <class T>
   static Tensor from(Shape shape, std::span<const T> values);
   template <class T>
@@ -59,7 +59,7 @@ class Tensor {
   Index size() const { return size_; }
   DType dtype() const { return dtype_; }
 
-  /// T must be the element type (Error otherwise).
+  /// Throws Error if T is not the element type.
   template <class T>
   const T* data() const {
     require(kDType<T>);
@@ -75,22 +75,22 @@ class Tensor {
     return {data<T>(), static_cast<std::size_t>(size_)};
   }
   template <class T>
-  std::span<const T> values() const&& = delete;  // the numbers would be gone
+  std::span<const T> values() const&& = delete;  // the storage may be gone
   /// The only element of a tensor of one element.
   double item() const;
 
-  /// A copy of the numbers, without history.
+  /// A copy of the elements, without history.
   Tensor clone() const;
   /// A copy converted to `dtype`, without history.
   Tensor to(DType dtype) const;
-  /// The same numbers, without history.
+  /// The same elements, without history.
   Tensor detached() const;
-  /// The same numbers under another shape of as many elements, without history.
+  /// The same elements under another shape, without history. Throws Error if the number of elements differs.
   Tensor reshaped(Shape shape) const;
-  /// Whether no other handle shares the numbers, so that they may be overwritten.
+  /// Whether no other handle shares the elements, so that they may be overwritten.
   bool unique() const { return storage_.use_count() == 1; }
 
-  /// The same numbers as a new leaf of the tape: gradients with respect to it are wanted.
+  /// The same elements as a new leaf of the tape: a parameter that receives a gradient.
   Tensor as_parameter() const;
   bool wants_gradient() const { return node_ != nullptr; }
   const std::shared_ptr<autograd::Node>& node() const { return node_; }

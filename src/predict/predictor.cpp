@@ -9,13 +9,15 @@
 
 namespace svnet {
 
-Predictor::Predictor(const std::filesystem::path& model_file) : Predictor(read_model(model_file)) {}
+Predictor::Predictor(const std::filesystem::path& model_file, const InferenceOptions& options)
+    : Predictor(read_model(model_file), options) {}
 
-Predictor::Predictor(const Model& model)
+Predictor::Predictor(const Model& model, const InferenceOptions& options)
     : preprocessing_(model.preprocessing),
       symmetries_(model.symmetries),
-      backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output)),
-      head_(model) {}
+      backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
+                options),
+      head_(model, options) {}
 
 Tensor Predictor::embed(const Image& top) const {
   check(top.height > 0 && top.width > 0 && static_cast<Index>(top.rgb.size()) == top.height * top.width * 3,

@@ -16,8 +16,8 @@ namespace svnet {
 class Predictor {
  public:
   /// Throws Error that names the file and says what is wrong.
-  explicit Predictor(const std::filesystem::path& model_file);
-  explicit Predictor(const Model& model);
+  explicit Predictor(const std::filesystem::path& model_file, const InferenceOptions& options = {});
+  explicit Predictor(const Model& model, const InferenceOptions& options = {});
 
   /// The number D of features: over all symmetries of the top image that the model sees.
   Index feature_count() const { return head_.feature_count(); }

@@ -15,11 +15,11 @@ constexpr Index kPosesAtOnce = 32;
 
 }  // namespace
 
-ScoreHead::ScoreHead(const Model& model)
+ScoreHead::ScoreHead(const Model& model, const InferenceOptions& options)
     : angles_(model.angles),
       symmetries_(model.symmetries),
       feature_count_(model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape)),
-      network_(model.head, model.head_parameters, model.head.output()) {}
+      network_(model.head, model.head_parameters, model.head.output(), options) {}
 
 std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const CameraPose> poses) const {
   check(features.defined() && features.shape() == Shape{1, feature_count_} && features.dtype() == DType::f32,

@@ -11,7 +11,7 @@ namespace svnet {
 /// A trained model without its backbone: it scores camera poses from features. Thread-safe.
 class ScoreHead {
  public:
-  explicit ScoreHead(const Model& model);
+  explicit ScoreHead(const Model& model, const InferenceOptions& options = {});
 
   /// The number D of features: over all symmetries of the top image that the model sees.
   Index feature_count() const { return feature_count_; }

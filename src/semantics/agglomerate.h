@@ -1,5 +1,8 @@
 #pragma once
-#include "semantics/agglomerative.h"
+#include <cstdint>
+
+#include "base/index.h"
+#include "semantics/linkage.h"
 
 namespace svnet {
 

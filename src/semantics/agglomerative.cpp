@@ -3,16 +3,9 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "base/text.h"
 #include "semantics/agglomerate.h"
 
 namespace svnet {
-
-Linkage linkage_named(const std::string& name) {
-  const auto found = find_enum<Linkage>(name);
-  check(found.has_value(), "[linkage] '", name, "' is unknown", suggestion(name, names_of<Linkage>()));
-  return *found;
-}
 
 Agglomerative::Agglomerative(Linkage linkage, Index max_points)
     : linkage_(linkage),

@@ -1,22 +1,11 @@
 #pragma once
 #include <cstdint>
 #include <span>
-#include <string>
 
-#include "base/enum_names.h"
+#include "semantics/linkage.h"
 #include "semantics/problem_distances.h"
 
 namespace svnet {
-
-enum class Linkage { ward, average, complete, single };
-
-template <>
-inline constexpr auto enum_names<Linkage> = std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"},
-                                                                              {Linkage::average, "average"},
-                                                                              {Linkage::complete, "complete"},
-                                                                              {Linkage::single, "single"}});
-/// Throws Error for an unknown name.
-Linkage linkage_named(const std::string& name);
 
 /// Agglomerative clustering in float32, with its memory. Merges the pair of clusters with the smallest dissimilarity
 /// until k are left. Ward, complete and single linkage work on squared distances, average on distances; complete and

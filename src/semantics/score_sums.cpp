@@ -21,7 +21,7 @@ void ScoreSums::add_and_clear(ScoreSums& other) {
         " views cannot be added to those of ", views.size());
   problems += other.problems;
   other.problems = 0;
-  const auto to = numbers(), from = other.numbers();
+  const auto to = values(), from = other.values();
   for (std::size_t i = 0; i < to.size(); ++i) {
     to[i] += from[i];
     from[i] = 0;

@@ -36,12 +36,12 @@ struct ScoreSums {
   static std::uint64_t fixed(double score) { return static_cast<std::uint64_t>(score * 0x1p32 + 0.5); }
 
   /// All members of `views` as one array, view by view.
-  static constexpr Index kNumbersOfView = sizeof(View) / sizeof(std::uint64_t);
-  std::span<std::uint64_t> numbers() {
-    return {reinterpret_cast<std::uint64_t*>(views.data()), views.size() * kNumbersOfView};
+  static constexpr Index kValuesPerView = sizeof(View) / sizeof(std::uint64_t);
+  std::span<std::uint64_t> values() {
+    return {reinterpret_cast<std::uint64_t*>(views.data()), views.size() * kValuesPerView};
   }
-  std::span<const std::uint64_t> numbers() const {
-    return {reinterpret_cast<const std::uint64_t*>(views.data()), views.size() * kNumbersOfView};
+  std::span<const std::uint64_t> values() const {
+    return {reinterpret_cast<const std::uint64_t*>(views.data()), views.size() * kValuesPerView};
   }
 
   /// Adds `other` and sets it to zero. Throws Error if it has another number of views.

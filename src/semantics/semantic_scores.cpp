@@ -102,7 +102,7 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
     last = communicator.broadcast(last);
     const Share share = share_of(communicator, sums.problems, last);
     solver.solve(share.first, share.last, step);
-    communicator.all_reduce(step.numbers());
+    communicator.all_reduce(step.values());
     step.problems = last - sums.problems;
     sums.add_and_clear(step);
     // The expected number may be too low, but progress must not show the end before it is reached.

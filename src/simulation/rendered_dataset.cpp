@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/version.h"
+#include "image/contact_sheet.h"
 #include "io/files/atomic_file.h"
 #include "io/files/fresh_folder.h"
 #include "io/images/depth_file.h"
@@ -15,7 +16,6 @@
 #include "simulation/collected_pose.h"
 #include "simulation/object_in_work.h"
 #include "simulation/object_source.h"
-#include "simulation/picture_table.h"
 
 namespace svnet {
 namespace {
@@ -23,7 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-constexpr Index kSheetCell_px = 96;  // of the contact sheet
+constexpr SheetLayout kSheet{.cell = 96, .gap = 2, .margin = 2, .text = 0, .font_size = 0.45};
 
 /// The view from the side that shows the largest part of the object.
 const Image& fullest_view(const CollectedPose& pose) {
@@ -174,7 +174,7 @@ class RenderJob {
     entry.manifest =
         write_pose(*collection.pose, collection.attempts, options_.size, folder / place, folder / "_extra" / place);
     if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetPictures)
-      entry.picture = resized_to_fit(fullest_view(*collection.pose), kSheetCell_px);
+      entry.picture = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
   }
 
   /// Says what its object lacks, and why it is left out.
@@ -197,7 +197,7 @@ class RenderJob {
   Index write_summaries(const fs::path& folder) {
     Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options_.seed}, {"size_px", options_.size}};
     Index pictures = 0;
-    std::vector<PictureRow> sheet;
+    std::vector<SheetLine> sheet;
     for (Index number = 0; number < pose_count(); ++number) {
       const ObjectSource& source = sources_[source_of(number)];
       Entry& entry = entries_[static_cast<std::size_t>(number)];
@@ -207,10 +207,11 @@ class RenderJob {
       }
       pictures += static_cast<Index>(entry.manifest.at("views").size());
       manifest["poses"][source.category][source.object][pose_name(number)] = std::move(entry.manifest);
-      if (sheet.empty() || sheet.back().label != source.category) sheet.push_back({source.category, {}});
-      if (!entry.picture.rgb.empty()) sheet.back().pictures.push_back(std::move(entry.picture));
+      if (sheet.empty() || sheet.back().label != source.category)
+        sheet.push_back({.groups = std::vector<SheetGroup>(1), .label = source.category});
+      if (!entry.picture.rgb.empty()) sheet.back().groups[0].cells.push_back({std::move(entry.picture)});
     }
-    write_png(folder / "_extra" / "contact_sheet.png", picture_table(sheet, kSheetCell_px));
+    write_png(folder / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheet));
     // Messages may quote bytes of a mesh file that are not UTF-8.
     write_atomically(folder / "manifest.json", manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     write_atomically(folder / "_extra" / "overview_camera.json",

@@ -9,21 +9,21 @@ namespace svnet {
 namespace {
 
 /// Uniform in [-most, most).
-double either_way(RandomStream& random, double most) { return most * (2 * random.uniform() - 1); }
+double symmetric_uniform(RandomStream& random, double most) { return most * (2 * random.uniform() - 1); }
 
 /// Between 1 / (1 + most) and 1 + most, evenly in the logarithm.
-double factor(RandomStream& random, double most) { return std::exp(either_way(random, std::log1p(most))); }
+double factor(RandomStream& random, double most) { return std::exp(symmetric_uniform(random, std::log1p(most))); }
 
-/// Where a pixel comes from: (x, y) = origin + column · right + row · down, in pixels of the source.
+/// The source of a pixel: (x, y) = origin + column · right + row · down, in pixels of the source.
 struct Placement {
   std::array<double, 2> origin, right, down;
 };
 
 Placement random_placement(const Augmentation& how, Index height, Index width, RandomStream& random) {
   const double scale = factor(random, how.zoom);
-  const double turn = either_way(random, how.turn_deg) * std::numbers::pi / 180;
-  const double shift_x = either_way(random, how.shift) * static_cast<double>(width);
-  const double shift_y = either_way(random, how.shift) * static_cast<double>(height);
+  const double turn = symmetric_uniform(random, how.turn_deg) * std::numbers::pi / 180;
+  const double shift_x = symmetric_uniform(random, how.shift) * static_cast<double>(width);
+  const double shift_y = symmetric_uniform(random, how.shift) * static_cast<double>(height);
   const double mirror = random.uniform() < how.flip ? -1 : 1;
   Placement place;
   place.right = {mirror * std::cos(turn) * scale, mirror * std::sin(turn) * scale};
@@ -78,7 +78,7 @@ Image augmented(const Image& image, const Augmentation& how, RandomStream& rando
             static_cast<float>(above[3 * x0 + c]) * (1 - dx) + static_cast<float>(above[3 * x1 + c]) * dx;
         const float lower =
             static_cast<float>(below[3 * x0 + c]) * (1 - dx) + static_cast<float>(below[3 * x1 + c]) * dx;
-        // The sum of two uniform bytes: a triangle, near enough to what a sensor adds.
+        // The sum of two uniform bytes has a triangular distribution, close to the noise of a sensor.
         const float grain = static_cast<float>((bits[0] >> (8 * c) & 255) + (bits[1] >> (8 * c) & 255)) - 255;
         const auto channel = static_cast<std::size_t>(c);
         const float level = (upper * (1 - dy) + lower * dy) * tone.gain[channel] + tone.offset[channel] + noise * grain;

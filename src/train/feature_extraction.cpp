@@ -34,13 +34,15 @@ std::string preprocessing_text(const Preprocessing& p) {
 }
 
 BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
-                                        const std::filesystem::path& folder, std::uint64_t seed) {
+                                        const std::filesystem::path& folder, std::uint64_t seed,
+                                        const InferenceOptions& options) {
   const BackboneKind& kind = backbone_kind(name);
   if (!folder.empty())
-    if (const auto file = find_weights(kind, folder)) return {read_backbone(name, *file, layer), file_sha256(*file)};
-  if (auto built_in = built_in_backbone(name, layer)) return {std::move(built_in->backbone), built_in->sha256};
+    if (const auto file = find_weights(kind, folder))
+      return {read_backbone(name, *file, layer, nullptr, options), file_sha256(*file)};
+  if (auto built_in = built_in_backbone(name, layer, options)) return {std::move(built_in->backbone), built_in->sha256};
   check_weights(name, folder);
-  return {random_backbone(name, layer, seed), joined("random, seed ", seed)};
+  return {random_backbone(name, layer, seed, options), joined("random, seed ", seed)};
 }
 
 void check_weights(const std::string& name, const std::filesystem::path& folder) {

@@ -7,31 +7,33 @@
 
 namespace svnet {
 
-/// Features of every view of the dataset, in its order. While a batch runs through the backbone, the pictures of the
-/// next one are read and prepared by threads of their own (with one thread in all: one after the other). The same bits
-/// for any number of threads, and whatever pictures share a batch. `origin` is copied into the result. A communicator
-/// shares the batches; each of its processes gets all features.
+/// Returns the features of every view of the dataset, in its order, with `origin` copied into them. While a batch runs
+/// through the backbone, other threads read and prepare the images of the next one; with one thread, one follows the
+/// other. The processes of the communicator share the batches, and each gets all features. The bits do not depend on
+/// the number of threads and processes, or on the images that share a batch.
 Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const Preprocessing& preprocessing);
 
-/// The backbone with the weights that `folder` holds for it, else those that are built in, else, where the folder is
-/// empty, seeded random ones; and a text that identifies the weights: the SHA-256 of their file, or "random, seed 7".
-/// Throws Error as check_weights does.
+/// A backbone, and where its weights come from.
 struct BackboneWithOrigin {
   Backbone backbone;
-  std::string weights;
+  std::string weights;  ///< the SHA-256 of their file, or "random, seed 7"
 };
-BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
-                                        const std::filesystem::path& folder, std::uint64_t seed);
 
-/// Throws Error where a folder is given that holds no weights of the backbone, and none are built in.
+/// The backbone with the weights that `folder` holds for it; otherwise those that are built in; otherwise, if `folder`
+/// is empty, random ones. Throws Error as check_weights does.
+BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
+                                        const std::filesystem::path& folder, std::uint64_t seed,
+                                        const InferenceOptions& options = {});
+
+/// Throws Error if `folder` is given but holds no weights of the backbone, and none are built in.
 void check_weights(const std::string& name, const std::filesystem::path& folder);
 
-/// The fields of the origin that follow from backbone, weights and pictures, the input fingerprint included. Features
-/// in bf16 say so beside the preprocessing, and have another fingerprint.
+/// The origin of the features of a backbone and of images. If products are in bf16, the preprocessing says so, and the
+/// fingerprint is another.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
 
 }  // namespace svnet

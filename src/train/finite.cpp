@@ -11,16 +11,16 @@
 namespace svnet {
 namespace {
 
-/// The largest absolute value; infinite where a number is not finite.
+/// The largest absolute value; infinity if an element is not finite.
 float largest(const Tensor& x) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   std::vector<float> found(static_cast<std::size_t>(Parallel::shared().threads()), 0.0f);
-  const auto numbers = x.defined() ? x.values<float>() : std::span<const float>{};
-  Parallel::shared().for_chunks(static_cast<Index>(numbers.size()), 1 << 16, [&](Index begin, Index end, int worker) {
+  const auto elements = x.defined() ? x.values<float>() : std::span<const float>{};
+  Parallel::shared().for_chunks(static_cast<Index>(elements.size()), 1 << 16, [&](Index begin, Index end, int worker) {
     float most = 0;
     bool finite = true;
     for (Index i = begin; i < end; ++i) {
-      const float value = std::abs(numbers[static_cast<std::size_t>(i)]);
+      const float value = std::abs(elements[static_cast<std::size_t>(i)]);
       finite = finite && value < kInfinity;  // NaN is not less
       most = value > most ? value : most;
     }

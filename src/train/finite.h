@@ -4,11 +4,11 @@
 
 namespace svnet {
 
-/// Whether every number is finite; of no tensor, yes. f32.
+/// Whether every element is finite. An empty handle is finite. Requires f32.
 bool is_finite(const Tensor& tensor);
 
-/// Whether every number of the parameter's gradient is finite. A product is known to be so by a bound, without being
-/// formed.
+/// Whether every element of the parameter's gradient is finite. A gradient that is kept as two factors is not computed:
+/// the factors' largest elements bound it.
 bool has_finite_gradient(const autograd::GradientMap& gradients, const Tensor& parameter);
 
 }  // namespace svnet

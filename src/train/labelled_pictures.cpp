@@ -21,30 +21,30 @@ LabelledPictures::LabelledPictures(const ViewDataset& dataset, std::vector<Pictu
     });
     progress.update(first + count);
   }
-  for (const Picture& picture : pictures) classes_.push_back(picture.number);
+  for (const Picture& picture : pictures) classes_.push_back(picture.label);
 }
 
 template <class Change>
-LabelledPictures::Batch LabelledPictures::batch_of(std::span<const std::int32_t> numbers, const Change& change) const {
-  Batch batch{Tensor::empty({static_cast<Index>(numbers.size()), preprocessing_.height, preprocessing_.width, 3}), {}};
+LabelledPictures::Batch LabelledPictures::batch_of(std::span<const std::int32_t> indices, const Change& change) const {
+  Batch batch{Tensor::empty({static_cast<Index>(indices.size()), preprocessing_.height, preprocessing_.width, 3}), {}};
   float* to = batch.pixels.data<float>();
-  Parallel::shared().for_chunks(static_cast<Index>(numbers.size()), 1, [&](Index i, Index, int) {
-    const auto number = static_cast<std::size_t>(numbers[static_cast<std::size_t>(i)]);
-    prepare(preprocessing_, change(images_[number], number), to + i * preprocessing_.size());
+  Parallel::shared().for_chunks(static_cast<Index>(indices.size()), 1, [&](Index i, Index, int) {
+    const auto index = static_cast<std::size_t>(indices[static_cast<std::size_t>(i)]);
+    prepare(preprocessing_, change(images_[index], index), to + i * preprocessing_.size());
   });
-  for (const std::int32_t number : numbers) batch.classes.push_back(classes_[static_cast<std::size_t>(number)]);
+  for (const std::int32_t index : indices) batch.classes.push_back(classes_[static_cast<std::size_t>(index)]);
   return batch;
 }
 
-LabelledPictures::Batch LabelledPictures::batch(std::span<const std::int32_t> numbers) const {
-  return batch_of(numbers, [](const Image& image, std::size_t) -> const Image& { return image; });
+LabelledPictures::Batch LabelledPictures::batch(std::span<const std::int32_t> indices) const {
+  return batch_of(indices, [](const Image& image, std::size_t) -> const Image& { return image; });
 }
 
-LabelledPictures::Batch LabelledPictures::augmented_batch(std::span<const std::int32_t> numbers,
+LabelledPictures::Batch LabelledPictures::augmented_batch(std::span<const std::int32_t> indices,
                                                           const Augmentation& how, std::uint64_t seed,
                                                           Index epoch) const {
-  return batch_of(numbers, [&](const Image& image, std::size_t number) {
-    RandomStream random(seed, Stream::augmentation, static_cast<std::uint64_t>(epoch) << 32 | number);
+  return batch_of(indices, [&](const Image& image, std::size_t index) {
+    RandomStream random(seed, Stream::augmentation, static_cast<std::uint64_t>(epoch) << 32 | index);
     return augmented(image, how, random);
   });
 }

@@ -10,15 +10,15 @@
 
 namespace svnet {
 
-/// Pictures of a dataset in memory, at the size that a network takes, each with its class.
+/// Images of a dataset in memory, at the size that a network takes, each with its class.
 class LabelledPictures {
  public:
   struct Picture {
-    Index view;    // of the dataset
-    Index number;  // the class
+    Index view;   // of the dataset
+    Index label;  // the class
   };
 
-  /// Reads the pictures. Throws Error that names the file where one cannot be read.
+  /// Reads the images. Throws Error, with the name of the file, if one cannot be read.
   LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures, const Preprocessing& preprocessing,
                    const Messages& messages, const std::string& task);
 
@@ -28,15 +28,16 @@ class LabelledPictures {
     Tensor pixels;  // (B, H, W, 3), preprocessed
     std::vector<Index> classes;
   };
-  /// The pictures as they are.
-  Batch batch(std::span<const std::int32_t> numbers) const;
-  /// The pictures as they are changed in an epoch: by the seed, the epoch and the picture's number alone.
-  Batch augmented_batch(std::span<const std::int32_t> numbers, const Augmentation& how, std::uint64_t seed,
+  /// The images as they are.
+  Batch batch(std::span<const std::int32_t> indices) const;
+  /// The images as they are changed at random in an epoch. The changes depend on the seed, the epoch and the index of
+  /// the image only.
+  Batch augmented_batch(std::span<const std::int32_t> indices, const Augmentation& how, std::uint64_t seed,
                         Index epoch) const;
 
  private:
   template <class Change>
-  Batch batch_of(std::span<const std::int32_t> numbers, const Change& change) const;
+  Batch batch_of(std::span<const std::int32_t> indices, const Change& change) const;
 
   Preprocessing preprocessing_;
   std::vector<Image> images_;

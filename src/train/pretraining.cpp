@@ -18,7 +18,7 @@
 namespace svnet {
 namespace {
 
-/// What is trained on and what is judged by.
+/// Images to train on, and to validate on.
 struct Split {
   std::vector<std::string> categories;
   std::vector<LabelledPictures::Picture> training, validation;
@@ -46,15 +46,15 @@ Split split(const ViewDataset& dataset, const PretrainingOptions& options) {
     trained_on.push_back(objects_left[static_cast<std::size_t>(object.category)]-- > 0);
   for (std::size_t v = 0; v < dataset.views.size(); ++v) {
     const View& view = dataset.views[v];
-    const Index number = class_of[static_cast<std::size_t>(view.category)];
-    if (number < 0) continue;
+    const Index label = class_of[static_cast<std::size_t>(view.category)];
+    if (label < 0) continue;
     auto& part = trained_on[static_cast<std::size_t>(view.object)] ? split.training : split.validation;
-    part.push_back({static_cast<Index>(v), number});
+    part.push_back({static_cast<Index>(v), label});
   }
   return split;
 }
 
-/// How many rows of logits (B, classes) have their largest number at the row's class.
+/// In how many rows of logits (B, classes) the largest one is that of the row's class.
 Index recognised(const Tensor& logits, const std::vector<Index>& classes) {
   const Index count = logits.dim(1);
   Index right = 0;
@@ -65,22 +65,23 @@ Index recognised(const Tensor& logits, const std::vector<Index>& classes) {
   return right;
 }
 
-/// Share of the pictures that the network recognises.
-double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures) {
+/// The share of the images that the network classifies correctly.
+double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures,
+                const InferenceOptions& options) {
   constexpr Index kBatch = 64;
-  const Inference network(graph, parameters, graph.output());
-  std::vector<std::int32_t> numbers(static_cast<std::size_t>(pictures.size()));
-  std::iota(numbers.begin(), numbers.end(), 0);
+  const Inference network(graph, parameters, graph.output(), options);
+  std::vector<std::int32_t> indices(static_cast<std::size_t>(pictures.size()));
+  std::iota(indices.begin(), indices.end(), 0);
   Index right = 0;
   for (Index begin = 0; begin < pictures.size(); begin += kBatch) {
     const auto count = static_cast<std::size_t>(std::min(kBatch, pictures.size() - begin));
-    const auto batch = pictures.batch(std::span(numbers).subspan(static_cast<std::size_t>(begin), count));
+    const auto batch = pictures.batch(std::span(indices).subspan(static_cast<std::size_t>(begin), count));
     right += recognised(network.run({batch.pixels}), batch.classes);
   }
   return static_cast<double>(right) / static_cast<double>(pictures.size());
 }
 
-/// The graph whose moving statistics follow those of batches with `momentum`.
+/// The graph with another momentum of the moving statistics of batch norms.
 Graph with_momentum(const Graph& graph, double momentum) {
   Graph changed;
   for (const GraphNode& node : graph.nodes()) {
@@ -91,22 +92,25 @@ Graph with_momentum(const Graph& graph, double momentum) {
   return changed;
 }
 
-/// Of step t. From scratch the moving statistics say nothing: they begin as the plain mean of the first batches', and
-/// then follow within a hundred steps.
+/// The momentum of step t. The moving statistics start as the plain mean over the first batches, because those of an
+/// untrained network mean nothing.
 double momentum_at(std::int64_t t) { return std::min(static_cast<double>(t) / static_cast<double>(t + 1), 0.95); }
 
-/// Sums over an epoch.
-struct Learnt {
+/// Sums over images: of their losses, and of those that are recognised.
+struct ImageSums {
   double loss = 0;
   Index right = 0;
 };
 
-Learnt step(const Graph& described, Parameters& parameters, Optimizer& optimizer, const LabelledPictures::Batch& batch,
-            double rate, std::uint64_t seed) {
+ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimizer,
+               const LabelledPictures::Batch& batch, double rate, const PretrainingOptions& options) {
   const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
   const auto loss = [&](const Tensor& logits) { return ops::softmax_cross_entropy(logits, batch.classes); };
   const StepResult result = training_step(graph, parameters, optimizer, {batch.pixels}, loss,
-                                          {.task = "pretraining", .learning_rate = rate, .seed = seed});
+                                          {.task = "pretraining",
+                                           .learning_rate = rate,
+                                           .seed = options.seed,
+                                           .convolution = options.inference.convolution});
   return {result.loss * static_cast<double>(batch.classes.size()), recognised(result.output, batch.classes)};
 }
 
@@ -140,23 +144,23 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
   double validation_accuracy = std::numeric_limits<double>::quiet_NaN();
   for (Index epoch = 0; epoch < options.epochs; ++epoch) {
     const auto order = epoch_order(training.size(), options.seed, epoch);
-    Learnt sum;
+    ImageSums sum;
     for (Index begin = 0, end; begin < training.size(); begin = end) {
       end = batch_end(begin, options.batch_size, training.size());
-      const auto numbers =
+      const auto indices =
           std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-      const Learnt learnt = step(graph, parameters, *optimizer,
-                                 training.augmented_batch(numbers, options.augmentation, options.seed, epoch),
-                                 schedule.at(optimizer->steps), options.seed);
-      sum.loss += learnt.loss;
-      sum.right += learnt.right;
+      const ImageSums batch = step(graph, parameters, *optimizer,
+                                   training.augmented_batch(indices, options.augmentation, options.seed, epoch),
+                                   schedule.at(optimizer->steps), options);
+      sum.loss += batch.loss;
+      sum.right += batch.right;
       progress.update(optimizer->steps);
     }
     for (const auto& [name, parameter] : parameters.items())
       check(is_finite(parameter), "[pretraining] ", name, " is not finite after epoch ", epoch + 1,
             "; a smaller learning rate may help");
     const auto count = static_cast<double>(training.size());
-    if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation);
+    if (validation.size() > 0) validation_accuracy = accuracy(graph, parameters, validation, options.inference);
     if (messages.line)
       messages.line(
           joined("epoch ", epoch + 1, "/", options.epochs, ": loss ", sum.loss / count, ", recognised ",
@@ -165,7 +169,8 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
   }
   Parameters dropped;
   take_trained(parameters, backbone, dropped);
-  return {Backbone(kind, layers, backbone), parts.categories, training.size(), validation.size(), validation_accuracy};
+  return {Backbone(kind, layers, backbone, "", options.inference), parts.categories, training.size(), validation.size(),
+          validation_accuracy};
 }
 
 }  // namespace svnet

@@ -6,6 +6,8 @@
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "models/registry.h"
+#include "train/config/config_file.h"
+#include "train/config/pipeline_name.h"
 #include "train/dataset_rows.h"
 #include "train/feature_extraction.h"
 #include "train/random_problems.h"
@@ -53,8 +55,8 @@ void Run::say(const std::string& line) const {
   if (messages.line) messages.line(line);
 }
 
-Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages,
-             Communicator& communicator) {
+Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages& messages, Communicator& communicator,
+             const InferenceOptions& inference) {
   std::vector<bool> held_out = named_categories(dataset, config.dataset.held_out, "dataset.held_out");
   const auto training = std::count(held_out.begin(), held_out.end(), false);
   check(training >= 2, "dataset.held_out: leaves ", training, " categories to train on, at least 2 are needed");
@@ -63,7 +65,8 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
           .folder = std::move(folder),
           .held_out = std::move(held_out),
           .messages = messages,
-          .communicator = communicator};
+          .communicator = communicator,
+          .inference = inference};
   std::error_code error;
   fs::create_directories(run.folder, error);
   check(!error, run.folder.string(), ": cannot make this folder: ", error.message());

@@ -6,6 +6,7 @@
 #include "base/communicator.h"
 #include "base/progress.h"
 #include "data/view_dataset.h"
+#include "nn/runtime/inference_options.h"
 #include "train/config/config.h"
 
 namespace svnet {
@@ -22,6 +23,7 @@ struct Run {
   std::vector<bool> held_out;  ///< per category
   Messages messages;
   Communicator& communicator;
+  InferenceOptions inference{};
   std::string dataset_fingerprint{};  ///< of the dataset's images
 
   std::uint64_t seed() const { return static_cast<std::uint64_t>(config.seed); }
@@ -36,7 +38,7 @@ struct Run {
 /// the configuration asks for: categories, backbones, layers, weights, pipelines, selectors, problems. Throws Error if
 /// something does not fit.
 Run make_run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages,
-             Communicator& communicator = SingleProcess::shared());
+             Communicator& communicator = SingleProcess::shared(), const InferenceOptions& inference = {});
 
 /// Writes config.yaml, the resolved configuration, into the run folder.
 void write_config(const Run& run);

@@ -6,14 +6,14 @@
 
 #include "base/error.h"
 #include "io/views/dataset_folder.h"
-#include "train/config/config.h"
+#include "train/config/config_file.h"
 
 namespace svnet {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs write configurations without comments.
+/// Whether somebody wrote the configuration by hand: runs write it without comments.
 bool is_by_hand(const fs::path& config) {
   std::ifstream lines(config);
   for (std::string line; std::getline(lines, line);)
@@ -33,7 +33,7 @@ bool is_named_as_result(const fs::path& file) {
          (name.starts_with("checkpoint-") && extension == ".safetensors");
 }
 
-/// Whether readers of the data set would come upon the folder.
+/// Whether a reader of the dataset would find the folder.
 bool is_among_pictures(const fs::path& folder, const fs::path& root) {
   const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(root));
   if (relative.empty() || *relative.begin() == "..") return false;

@@ -3,8 +3,8 @@
 
 namespace svnet {
 
-/// Throws Error where a run in `folder` would take the place of files that no run has written, or lie among the
-/// pictures of its data set: a config.yaml by hand, results without one. A folder that does not exist will do.
+/// Throws Error if a run in `folder` would overwrite files that no run wrote (a config.yaml written by hand, or results
+/// without a config.yaml), or if the folder lies inside the dataset. The folder need not exist.
 void check_run_folder(const std::filesystem::path& folder, const std::filesystem::path& dataset_root);
 
 }  // namespace svnet

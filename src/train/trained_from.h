@@ -4,8 +4,8 @@
 
 namespace svnet {
 
-/// The layer of a backbone's graph above which layers are trained, up to `output`: the output itself where none is.
-/// Throws Error where the last block is to be trained and `output` is not above its input.
+/// The node of a backbone's graph whose output is the first trained layer's input; `output` itself if no layer is
+/// trained. Throws Error if fine_tune is last_block and `output` is not above the input of the last block.
 NodeId trained_from(FineTune fine_tune, const BackboneKind& kind, const Graph& graph, NodeId output);
 
 }  // namespace svnet

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
 
-/// The sum of the bits of all parameters, as integers: it shows whether two processes have the same ones.
+/// The sum of all parameters, with their bits read as integers. Different sums mean different parameters.
 std::uint64_t sum_of_bits(const Parameters& parameters) {
   std::atomic<std::uint64_t> sum = 0;
   for (const auto& [name, tensor] : parameters.items()) {
@@ -75,6 +75,7 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
                         .learning_rate = options_.schedule.at(optimizer.steps),
                         .seed = options_.seed,
                         .products = autograd::GradientMap::Products::keep,
+                        .convolution = options_.convolution,
                         .communicator = &communicator_})
       .loss;
 }
@@ -95,7 +96,7 @@ double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) 
   return sum / static_cast<double>(set.size());
 }
 
-Checkpoint Trainer::beginning(Parameters parameters) const {
+Checkpoint Trainer::initial_state(Parameters parameters) const {
   return {.input_fingerprint = options_.input_fingerprint,
           .metrics = kMetricsHeader,
           .parameters = std::move(parameters),

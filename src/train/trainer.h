@@ -5,6 +5,7 @@
 #include "base/communicator.h"
 #include "base/progress.h"
 #include "io/models/checkpoint.h"
+#include "nn/kernels/convolution_choice.h"
 #include "nn/optim/optimizer.h"
 #include "nn/optim/schedule.h"
 #include "train/training_set.h"
@@ -17,29 +18,30 @@ struct TrainerOptions {
   OptimizerOptions optimizer{};
   Schedule schedule;  // in steps
   std::uint64_t seed = 0;
+  kernels::Convolution convolution = kernels::Convolution::automatic;
   std::string input_fingerprint;  // copied into checkpoints
 };
 
-/// Trains a graph with inputs (top view, angles) and one score by mean squared error. The processes of a communicator
-/// all do the same steps, each with all parameters, and share the products of dense layers: every sum over a batch is
-/// made in the order of its examples, so the bits do not depend on how many they are.
+/// Trains a graph with the inputs (top view, angles) and one score as output, by mean squared error. All processes of a
+/// communicator do the same steps with all parameters, and share the products of dense layers. Sums over a batch are
+/// taken in the order of its examples, so the bits do not depend on the number of processes.
 class Trainer {
  public:
-  /// `validation` may be empty (nullptr). Keeps references.
+  /// `validation` may be nullptr. Keeps references.
   Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation, const TrainerOptions& options,
           Communicator& communicator = SingleProcess::shared());
 
-  /// What a training starts from.
-  Checkpoint beginning(Parameters parameters) const;
+  /// The state before the first step.
+  Checkpoint initial_state(Parameters parameters) const;
 
-  /// Goes on from a checkpoint with the same bits as if it had never stopped, changing its parameters in place. After
-  /// each epoch calls `after_epoch` with the state and whether the epoch is the best so far: by validation loss where
-  /// there is a validation set, else by training loss. Throws Error where the loss or a gradient is not finite, or
-  /// where the processes of the communicator do not compute the same.
+  /// Continues from a checkpoint, with the bits of a training that was not interrupted; changes its parameters in
+  /// place. After each epoch calls `after_epoch` with the state, and with whether the epoch is the best so far: by
+  /// validation loss if there is a validation set, otherwise by training loss. Throws Error if the loss or a gradient
+  /// is not finite, or if the processes of the communicator have different parameters.
   void train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
 
-  /// For reading a checkpoint: the shapes of the optimizer's state.
+  /// The shapes of the optimizer's state, which read_checkpoint needs.
   std::vector<Shape> optimizer_shapes() const;
 
   Index steps_per_epoch() const;

@@ -10,7 +10,7 @@
 namespace svnet {
 namespace {
 
-/// The score that is learnt, scaled to [0, 1] among the views of each pose.
+/// The score that SV-net learns, scaled to [0, 1] among the views of each pose.
 std::vector<double> scaled_targets(const ViewDataset& dataset, const Scores& scores, Target target) {
   if (target == Target::individual) return scores.scaled;
   std::vector<std::int32_t> pose_of_view;
@@ -40,13 +40,13 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, c
 
 TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) const {
   const auto count = static_cast<Index>(examples.size());
-  const Index angle_numbers = angle_count(angles_);
-  Batch batch{{}, Tensor::empty({count, angle_numbers}), Tensor::empty({count, 1})};
+  const Index angle_size = angle_count(angles_);
+  Batch batch{{}, Tensor::empty({count, angle_size}), Tensor::empty({count, 1})};
   std::vector<Index> inputs;
   for (Index i = 0; i < count; ++i) {
     const Example& example = examples_[static_cast<std::size_t>(examples[static_cast<std::size_t>(i)])];
     inputs.push_back(example.input);
-    std::copy_n(example.angles, angle_numbers, batch.angles.data<float>() + i * angle_numbers);
+    std::copy_n(example.angles, angle_size, batch.angles.data<float>() + i * angle_size);
     batch.targets.data<float>()[i] = example.target;
   }
   batch.top_views = inputs_.batch(inputs);

@@ -10,12 +10,12 @@
 
 namespace svnet {
 
-/// What SV-net learns from: (a pose's top view, angles of a view) -> scaled score of the view, in every orientation
-/// that the inputs have.
+/// The examples that SV-net learns from: (top view of a pose, angles of a view) -> scaled score of the view, in every
+/// orientation of the inputs.
 class TrainingSet {
  public:
-  /// The views of `categories` that have a score. Rows of scores are the dataset's views (Error where they are not).
-  /// Keeps a reference to the inputs.
+  /// Takes the views of `categories` that have a score. Throws Error unless the rows of the scores are the dataset's
+  /// views. Keeps a reference to the inputs.
   TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, const Scores& scores,
               const std::vector<bool>& categories, Target target, AngleEncoding angles);
 

@@ -11,8 +11,10 @@ namespace svnet {
 StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& optimizer,
                          const std::vector<Tensor>& inputs, const std::function<Tensor(const Tensor& output)>& loss,
                          const StepOptions& options) {
-  const TrainingContext context{
-      .seed = options.seed, .step = static_cast<std::uint64_t>(optimizer.steps), .communicator = options.communicator};
+  const TrainingContext context{.seed = options.seed,
+                                .step = static_cast<std::uint64_t>(optimizer.steps),
+                                .communicator = options.communicator,
+                                .convolution = options.convolution};
   const Tensor output = train(graph, parameters, inputs, {graph.output()}, context)[0];
   const Tensor loss_value = loss(output);
   const auto check_step = [&](bool finite, const char* what) {

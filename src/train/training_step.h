@@ -6,6 +6,7 @@
 #include "nn/autograd.h"
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
+#include "nn/kernels/convolution_choice.h"
 #include "nn/optim/optimizer.h"
 
 namespace svnet {
@@ -16,6 +17,7 @@ struct StepOptions {
   std::uint64_t seed = 0;  ///< of dropout
   /// Whether gradients of dense layers are computed, or kept as two factors for the optimizer.
   autograd::GradientMap::Products products = autograd::GradientMap::Products::compute;
+  kernels::Convolution convolution = kernels::Convolution::automatic;
   Communicator* communicator = nullptr;  ///< whose processes share the products of dense layers
 };
 

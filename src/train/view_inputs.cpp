@@ -47,10 +47,10 @@ Shape PictureInputs::shape() const {
   return options_.flat ? Shape{element_count(shape)} : shape;
 }
 
-Tensor PictureInputs::made(std::span<const Index> inputs) const {
+Tensor PictureInputs::compute(std::span<const Index> inputs) const {
   const auto count = static_cast<Index>(inputs.size());
   Tensor pixels = Tensor::empty({count, preprocessing_.height, preprocessing_.width, 3});
-  // Inputs of one view that follow each other are turned from one picture.
+  // The image of a view is read once for all of its inputs that follow each other.
   Parallel::shared().for_chunks(count, options_.orientations, [&](Index begin, Index end, int) {
     std::vector<float> as_taken(static_cast<std::size_t>(preprocessing_.size()));
     for (Index i = begin, prepared = -1; i < end; ++i) {
@@ -73,7 +73,8 @@ Tensor PictureInputs::made(std::span<const Index> inputs) const {
 
 Tensor PictureInputs::batch(std::span<const Index> inputs) const {
   const auto row_of = [&](Index input) { return kept_row_[static_cast<std::size_t>(input)]; };
-  if (!std::all_of(inputs.begin(), inputs.end(), [&](Index input) { return row_of(input) >= 0; })) return made(inputs);
+  if (!std::all_of(inputs.begin(), inputs.end(), [&](Index input) { return row_of(input) >= 0; }))
+    return compute(inputs);
   const Index size = element_count(shape());
   Tensor batch = Tensor::empty(batched(static_cast<Index>(inputs.size()), shape()));
   for (std::size_t i = 0; i < inputs.size(); ++i)
@@ -97,7 +98,7 @@ void PictureInputs::keep(const std::vector<Index>& views, const Messages& messag
   for (Index begin = first; begin < last; begin += kBatch) {
     const Index end = std::min(begin + kBatch, last);
     const Tensor part =
-        made(std::span(inputs).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+        compute(std::span(inputs).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
     std::copy_n(part.data<float>(), part.size(), kept.data<float>() + begin * size);
     progress.update(end - first);
   }

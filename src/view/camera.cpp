@@ -26,11 +26,10 @@ std::string intrinsics_problem(const Intrinsics& camera) {
   return "";
 }
 
-std::string name_of(CameraFrame frame) { return frame == CameraFrame::paper ? "paper" : "optical"; }
-
-CameraFrame camera_frame_named(std::string_view name) {
-  check(name == "paper" || name == "optical", "the camera frame '", name, "' is not known; known: paper, optical");
-  return name == "paper" ? CameraFrame::paper : CameraFrame::optical;
+CameraFrame camera_frame_named(const std::string& name) {
+  const auto found = find_enum<CameraFrame>(name);
+  check(found.has_value(), "the camera frame '", name, "' is not known", suggestion(name, names_of<CameraFrame>()));
+  return *found;
 }
 
 double viewing_radius_m(const Intrinsics& camera, double diagonal_m) {

@@ -1,8 +1,8 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <string>
-#include <string_view>
 
+#include "base/enum_names.h"
 #include "base/index.h"
 #include "view/camera_pose.h"
 
@@ -25,10 +25,11 @@ std::string intrinsics_problem(const Intrinsics&);
 ///   paper    z forward, x left, y up; x is horizontal
 ///   optical  z forward, x right, y down, as pixels are counted (ROS REP-103)
 enum class CameraFrame { paper, optical };
-
-/// "paper" and "optical". camera_frame_named throws Error for any other name.
-std::string name_of(CameraFrame);
-CameraFrame camera_frame_named(std::string_view name);
+template <>
+inline constexpr auto enum_names<CameraFrame> =
+    std::to_array<EnumName<CameraFrame>>({{CameraFrame::paper, "paper"}, {CameraFrame::optical, "optical"}});
+/// Throws Error for an unknown name.
+CameraFrame camera_frame_named(const std::string& name);
 
 /// The share of the smaller side of the picture that the object's diagonal spans.
 constexpr double kViewShare = 0.7;

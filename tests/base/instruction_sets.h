@@ -6,7 +6,7 @@
 
 namespace svnet::test {
 
-/// Calls body(name) with the fast kernels capped at each instruction set that the machine has, and lifts the cap.
+/// Calls body(name) with the fast kernels limited to each instruction set of the machine, then removes the limit.
 template <class Body>
 void for_instruction_sets(Body&& body) {
   const std::vector<std::string> names = instruction_sets();

@@ -17,7 +17,7 @@ TEST_CASE("Philox4x32-10 gives Random123's known answers") {
         Words{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
 
-TEST_CASE("a random stream is laid out as documented") {
+TEST_CASE("a random stream has the documented layout") {
   const std::uint64_t seed = 0x0123456789abcdef, index = 0xfedcba9876543210;
   for_instruction_sets([&](const std::string& isa) {
     INFO(isa);
@@ -26,7 +26,7 @@ TEST_CASE("a random stream is laid out as documented") {
       for (std::uint32_t word : philox4x32({0x76543210, 0xfedcba98, step, 3}, {0x89abcdef, 0x01234567}))
         CHECK(random.bits32() == word);
     PhiloxRun words{};
-    philox4x32_run({1, 2, ~0u, 3}, {4, 5}, words);  // the step starts again from 0
+    philox4x32_run({1, 2, ~0u, 3}, {4, 5}, words);  // the step is 0 again
     CHECK(words[4] == philox4x32({1, 2, 0, 3}, {4, 5})[0]);
   });
 }

@@ -11,7 +11,7 @@ TEST_CASE("SHA-256 gives FIPS 180-4's known answers") {
         "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1");
 }
 
-TEST_CASE("SHA-256 does not depend on how the bytes arrive") {
+TEST_CASE("SHA-256 does not depend on how the bytes are split") {
   const std::string text(1000, 'a');
   for (std::size_t cut : {1, 63, 64, 65, 128, 999}) {
     Sha256 pieces;
@@ -20,6 +20,6 @@ TEST_CASE("SHA-256 does not depend on how the bytes arrive") {
   }
 }
 
-TEST_CASE("fields keep their borders") {
+TEST_CASE("a hash of fields depends on where each field ends") {
   CHECK(Sha256().update_field("ab").update_field("c").hex() != Sha256().update_field("a").update_field("bc").hex());
 }

@@ -5,7 +5,7 @@
 
 using namespace svnet;
 
-TEST_CASE("nearest_name finds what was meant, and nothing where nothing is near") {
+TEST_CASE("nearest_name finds the name that was meant, or nothing if no name is near") {
   const std::vector<std::string> names{"epochs", "batch_size", "learning_rate"};
   CHECK(nearest_name("epoch", names) == "epochs");
   CHECK(nearest_name("learning-rate", names) == "learning_rate");
@@ -14,7 +14,7 @@ TEST_CASE("nearest_name finds what was meant, and nothing where nothing is near"
   CHECK(suggestion("colour", names) == "; known: epochs, batch_size, learning_rate");
 }
 
-TEST_CASE("natural order counts runs of digits as numbers") {
+TEST_CASE("natural order compares runs of digits by value") {
   std::vector<std::string> names{"10", "2", "a10b", "a2b", "a", "1", "02", "a2", ""};
   std::sort(names.begin(), names.end(), natural_less);
   CHECK(names == std::vector<std::string>{"", "1", "02", "2", "10", "a", "a2", "a2b", "a10b"});

@@ -1,5 +1,5 @@
 #pragma once
 #include <string>
 
-/// Writes small_model() of small_model.h, whose headers svnet.hpp must not be mixed with.
+/// Writes small_model() of small_model.h. In a file of its own, because its headers do not mix with svnet.hpp.
 void write_small_model(const std::string& path);

@@ -1,4 +1,4 @@
-// Installs the library, moves what was installed, builds a project of its own against it, and compares the scores of
+// Installs the library, moves it, builds an outside project against it, and compares the scores of
 // the command, the C program, the C++ program and the Python module.
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/environment.h"
 #include "io/images/image_file.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
@@ -21,7 +22,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// What a shell command prints; it must succeed.
+/// Returns the output of a shell command. Requires success.
 std::string output_of(const TemporaryFolder& folder, const std::string& command) {
   const fs::path log = folder.path() / "log";
   const int status = std::system((command + " >" + log.string() + " 2>&1").c_str());
@@ -31,7 +32,7 @@ std::string output_of(const TemporaryFolder& folder, const std::string& command)
   return output;
 }
 
-/// As the programs of the project read it.
+/// The contents of a PPM file, the format that the programs of the project read.
 std::string ppm(const Image& image) {
   return joined("P6 ", image.width, " ", image.height, " 255\n") + std::string(image.rgb.begin(), image.rgb.end());
 }
@@ -46,14 +47,14 @@ std::string built_project(const TemporaryFolder& folder, const fs::path& prefix)
   return build;
 }
 
-/// Command lines that take MODEL PICTURE.ppm THETA PHI… and print the scores and the number of the best.
+/// Command lines that take MODEL PICTURE.ppm THETA PHI… and print the scores and the index of the best.
 std::vector<std::string> programs(const std::string& build) {
   std::vector<std::string> commands{build + "/score_c", build + "/score_cpp"};
   if (const std::string python = PYTHON; !python.empty()) commands.push_back(python + " " CONSUMER_PROJECT "/score.py");
   return commands;
 }
 
-/// Checks that the programs give svnet-predict's scores for a picture, to 1e-6, and the same best view. Returns the
+/// Checks that the programs give svnet-predict's scores for an image, to 1e-6, and the same best view. Returns the
 /// largest difference.
 double compare(const TemporaryFolder& folder, const std::vector<std::string>& commands, const std::string& model,
                const fs::path& picture, const std::vector<CameraPose>& poses) {
@@ -89,7 +90,7 @@ double compare(const TemporaryFolder& folder, const std::vector<std::string>& co
   return largest;
 }
 
-/// SV-net as configs/eth80.yaml describes it, on MobileNet's weights; what its head has learnt does not matter here.
+/// SV-net as configs/eth80.yaml describes it, on MobileNet's weights; its head has random weights.
 Model eth80_model(const fs::path& weights) {
   const Backbone backbone = read_backbone("mobilenet", weights, "", nullptr);
   Model model{.backbone = "mobilenet",
@@ -107,7 +108,7 @@ Model eth80_model(const fs::path& weights) {
 
 }  // namespace
 
-TEST_CASE("an outside project finds the installed library, wherever it was moved, and gets svnet-predict's scores") {
+TEST_CASE("an outside project finds the installed library after a move, and gets svnet-predict's scores") {
   const TemporaryFolder folder;
   const fs::path first = folder.path() / "first", prefix = folder.path() / "moved" / "to a place";
   output_of(folder, CMAKE " --install " BUILD_FOLDER " --prefix " + first.string());
@@ -140,7 +141,7 @@ TEST_CASE("an outside project finds the installed library, wherever it was moved
     compare(folder, programs(build), model, picture, paper_grid());
   }
 
-  // Linked from where it was moved to, and free of what belongs to training and to the commands.
+  // Linked from its new place, and without the libraries of training and of the commands.
   std::string libraries = output_of(folder, "ldd " + build + "/score_c");
   CHECK_THAT(libraries, Catch::Contains(prefix.string() + "/" LIBRARY_FOLDER "/libsvnet.so.0"));
   std::transform(libraries.begin(), libraries.end(), libraries.begin(),
@@ -157,8 +158,8 @@ TEST_CASE("an outside project finds the installed library, wherever it was moved
   }
 }
 
-// SVNET_ETH80_MODEL may name a model that svnet-train has made; without it the head has random numbers.
-TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 pictures and 41 poses") {
+// SVNET_ETH80_MODEL may name a model that svnet-train wrote; without it the head has random weights.
+TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 images and 41 poses") {
   const fs::path weights = shared_folder("weights/mobilenet_1_0_224_tf_no_top.h5"), data = shared_folder("data/eth80");
   if (!fs::exists(weights) || !fs::exists(data)) {
     WARN("skipped: no " << weights << " or no " << data);
@@ -168,9 +169,9 @@ TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 pic
   const fs::path prefix = folder.path() / "prefix";
   output_of(folder, CMAKE " --install " BUILD_FOLDER " --prefix " + prefix.string());
   const std::vector<std::string> commands = programs(built_project(folder, prefix));
-  const char* trained = std::getenv("SVNET_ETH80_MODEL");
-  const std::string model = trained != nullptr ? trained : (folder.path() / "model.safetensors").string();
-  if (trained == nullptr) write_model(model, eth80_model(weights));
+  const std::string trained = environment_variable("SVNET_ETH80_MODEL");
+  const std::string model = !trained.empty() ? trained : (folder.path() / "model.safetensors").string();
+  if (trained.empty()) write_model(model, eth80_model(weights));
 
   const ViewDataset dataset = read_view_dataset(data);
   REQUIRE(dataset.poses.size() >= 20);

@@ -51,14 +51,14 @@ TEST_CASE("resized gives Pillow's bits") {
   CHECK(cases == 24);
 }
 
-TEST_CASE("a plain picture stays plain at every size") {
+TEST_CASE("an image of one colour keeps it at every size") {
   for (const Index side : {1, 2, 3, 7, 64, 100})
     for (const auto interpolation : {Interpolation::nearest, Interpolation::bilinear})
       for (const std::uint8_t value : {0, 1, 254, 255})
         CHECK(resized(filled(13, 29, value), side, 2 * side, interpolation).rgb == filled(side, 2 * side, value).rgb);
 }
 
-TEST_CASE("a picture without pixels, or of another size than it says, is refused") {
+TEST_CASE("an image without pixels, or with a wrong number of pixels, is refused") {
   CHECK_THROWS_WITH(resized({}, 4, 5, Interpolation::nearest),
                     "[resize] cannot make a 4x5 image of a 0x0 image: every side must be at least 1");
   CHECK_THROWS_WITH(resized(noise(2, 3), 0, 5, Interpolation::bilinear),

@@ -21,7 +21,7 @@ std::size_t entries(const fs::path& folder) {
 }
 }  // namespace
 
-TEST_CASE("a file is written, then replaced, and nothing else stays") {
+TEST_CASE("a file is written, then replaced, and no other file remains") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "model.safetensors";
   write_atomically(path, std::string_view("first\0one", 9));
@@ -57,7 +57,7 @@ TEST_CASE("a writer that throws leaves the old file and no temporary") {
   CHECK(entries(folder.path()) == 1);
 }
 
-TEST_CASE("targets that cannot be written are refused by name before any work") {
+TEST_CASE("targets that cannot be written are refused before any work") {
   const TemporaryFolder folder;
   const auto never = [](const fs::path&) { FAIL("the writer was called"); };
   CHECK_THROWS_WITH(write_atomically(folder.path(), never),
@@ -74,7 +74,7 @@ TEST_CASE("targets that cannot be written are refused by name before any work") 
   CHECK_THROWS_WITH(write_atomically("", never), "'': not the name of a file; give one that can be written");
 }
 
-TEST_CASE("what a link points to is written, the link stays") {
+TEST_CASE("the target of a link is written, and the link stays") {
   const TemporaryFolder folder;
   const fs::path real = folder.write("far/real.h5", "old"), link = folder.path() / "link.h5";
   fs::create_symlink("far/real.h5", link);
@@ -90,7 +90,7 @@ TEST_CASE("what a link points to is written, the link stays") {
                     (folder.path() / "round").string() + ": cannot be written: too many symbolic links");
 }
 
-TEST_CASE("an output that is needed otherwise is refused, by whatever name") {
+TEST_CASE("an output that is also an input is refused, under any name") {
   const TemporaryFolder folder;
   const fs::path input = folder.write("in.h5", "old"), link = folder.path() / "link.h5";
   fs::create_symlink("in.h5", link);
@@ -116,8 +116,8 @@ TEST_CASE("a folder without write permission is an error that says so") {
   fs::permissions(folder.path(), fs::perms(0700));
 }
 
-TEST_CASE("a disk that takes no more is an error that names the target and leaves no temporary") {
-  // A limit on the size of files fails in the middle of the contents, as a full disk does.
+TEST_CASE("a full disk is an error that names the target and leaves no temporary file") {
+  // A limit on file sizes fails in the middle of the contents, like a full disk.
   const TemporaryFolder folder;
   const fs::path path = folder.write("big", "old");
   rlimit before;
@@ -138,7 +138,7 @@ TEST_CASE("a disk that takes no more is an error that names the target and leave
   CHECK(entries(folder.path()) == 1);
 }
 
-TEST_CASE("what a killed process left of a file is removed by the next one that writes it") {
+TEST_CASE("the temporary file of a killed process is removed by the next one that writes the file") {
   const TemporaryFolder folder;
   const pid_t dead = ::fork();
   if (dead == 0) ::_exit(0);
@@ -147,12 +147,11 @@ TEST_CASE("what a killed process left of a file is removed by the next one that 
     return folder.write(".svnet-" + name + "-" + std::to_string(pid) + rest, "half");
   };
   const fs::path stale = temporary("scores.h5", dead, "-7.tmp");
-  const std::vector<fs::path> others{temporary("scores.h5", ::getpid(), "-7000.tmp"),  // of someone who lives
-                                     temporary("scores.h5.bak", dead, "-7.tmp"),       // of another file
-                                     temporary("other.h5", dead, "-7.tmp"),
-                                     temporary("scores.h5", dead, "-7.tmp.bak"),  // of someone else's making
-                                     temporary("scores.h5-1", dead, "-7.tmp"),
-                                     temporary("scores.h5", dead, "-7")};
+  const std::vector<fs::path> others{
+      temporary("scores.h5", ::getpid(), "-7000.tmp"),  // of a running process
+      temporary("scores.h5.bak", dead, "-7.tmp"),       // of another file
+      temporary("other.h5", dead, "-7.tmp"),           temporary("scores.h5", dead, "-7.tmp.bak"),  // another name
+      temporary("scores.h5-1", dead, "-7.tmp"),        temporary("scores.h5", dead, "-7")};
   write_atomically(folder.path() / "scores.h5", "whole");
   CHECK_FALSE(fs::exists(stale));
   for (const fs::path& other : others) {

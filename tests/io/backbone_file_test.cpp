@@ -30,7 +30,7 @@ void rewrite(const std::filesystem::path& from, const std::filesystem::path& to,
 
 }  // namespace
 
-TEST_CASE("a backbone comes back from its file, up to any layer") {
+TEST_CASE("a backbone is read from its file, up to any layer") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "w.safetensors";
   const Backbone backbone = random_backbone("tiny_xception", "", 5);
@@ -80,7 +80,7 @@ TEST_CASE("weights that do not fit are refused") {
                     Catch::Contains("none.safetensors: cannot be read: No such file"));
 }
 
-TEST_CASE("the built-in weights are those of data/, small, and tell pictures apart") {
+TEST_CASE("the built-in weights are those of data/, are small, and give different images different features") {
   const auto file = std::filesystem::path(SVNET_SOURCE_DIR) / "data/tiny_xception.safetensors";
   CHECK(std::filesystem::file_size(file) <= 1500000);
   const auto built_in = built_in_backbone("tiny_xception");
@@ -89,7 +89,7 @@ TEST_CASE("the built-in weights are those of data/, small, and tell pictures apa
   CHECK(same_numbers(built_in->backbone.parameters(), read_backbone("tiny_xception", file).parameters()));
   CHECK(built_in_backbone("tiny_xception", "block4_act")->backbone.output_name() == "block4_act");
 
-  // Batches of one picture of noise and one of a gradient: finite features that differ, most of them in use.
+  // Batches of one image of noise and one of a gradient: the features are finite, differ, and most are not 0.
   Tensor batch = Tensor::empty({2, 96, 96, 3});
   for (Index i = 0; i < batch.size(); ++i)
     batch.data<float>()[i] = i < batch.size() / 2 ? static_cast<float>(i * 7919 % 255) / 127.5f - 1

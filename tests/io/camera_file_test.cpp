@@ -18,7 +18,7 @@ TEST_CASE("a camera is written and read") {
   CHECK_FALSE(read_camera(folder.write("b.json", camera_json({camera.intrinsics, {}}))).camera_to_world.has_value());
 }
 
-TEST_CASE("camera files that cannot be used get one line that names them") {
+TEST_CASE("camera files that cannot be used are named in one line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) -> std::string {
     try {

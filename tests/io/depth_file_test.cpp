@@ -51,13 +51,13 @@ TEST_CASE("depth is read from NumPy files of floats in metres") {
   const auto path = folder.write("a.npy", npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", single));
   CHECK(read_depth(path).metres == std::vector<float>{1.5f, 0, 0, 0, 0, 2.25f});
   CHECK(read_depth(path).width == 3);
-  // What is farther than a robot sees stands for a hole.
+  // A depth beyond the range of the robot means: not measured.
   const std::string twice = bytes(std::vector<double>{0.25, 4, 1000});
   folder.write("b.npy", npy("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 3), }", twice));
   CHECK(read_depth(folder.path() / "b.npy").metres == std::vector<float>{0.25f, 4, 0});
 }
 
-TEST_CASE("depth files that cannot be read get one line that names them") {
+TEST_CASE("depth files that cannot be read are named in one line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) { return refusal(folder.write("d", contents)); };
   const std::string name = (folder.path() / "d").string() + ": ", data = bytes(std::vector<float>{1, 2});

@@ -58,7 +58,7 @@ TEST_CASE("features have the documented datasets and attributes") {
   CHECK(file.text_attribute("", "input_fingerprint") == "ef56");
 }
 
-TEST_CASE("features that are incomplete or not finite are neither written nor replace a file") {
+TEST_CASE("features that are incomplete or not finite are not written and replace no file") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "f.h5";
   write_features(path, example());

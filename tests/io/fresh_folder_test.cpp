@@ -16,7 +16,7 @@ namespace {
 
 void write(const fs::path& path, const std::string& contents) { std::ofstream(path) << contents; }
 
-/// Makes the folder with one file in it.
+/// Makes a folder with one file.
 void make(const fs::path& path) {
   FreshFolder folder(path);
   write(folder.path() / "file", "new");
@@ -36,7 +36,7 @@ std::ptrdiff_t entries(const fs::path& folder) {
   return std::distance(fs::directory_iterator(folder), fs::directory_iterator());
 }
 
-/// Runs in a folder as long as this object lives.
+/// Changes the working directory while this object exists.
 struct In {
   explicit In(const fs::path& folder) : before(fs::current_path()) { fs::current_path(folder); }
   ~In() { fs::current_path(before); }
@@ -61,7 +61,7 @@ TEST_CASE("a fresh folder appears as a whole, or is removed") {
   CHECK(entries(place.path() / "a") == 1);
 }
 
-TEST_CASE("a fresh folder leaves alone what lies beside it") {
+TEST_CASE("a fresh folder does not change what is next to it") {
   const TemporaryFolder place;
   place.write("a.partial/mine", "old");
   make(place.path() / "a");
@@ -69,7 +69,7 @@ TEST_CASE("a fresh folder leaves alone what lies beside it") {
   CHECK(entries(place.path()) == 2);
 }
 
-TEST_CASE("of two that make the same folder the first to finish has it") {
+TEST_CASE("if two processes make the same folder, the first to finish gets it") {
   const TemporaryFolder place;
   const fs::path path = place.path() / "a";
   std::optional<FreshFolder> first(std::in_place, path), second(std::in_place, path);
@@ -84,7 +84,7 @@ TEST_CASE("of two that make the same folder the first to finish has it") {
   CHECK(entries(place.path()) == 1);
 }
 
-TEST_CASE("a fresh folder may take the place of an empty one, and where a link leads") {
+TEST_CASE("a fresh folder may replace an empty one, and the target of a link") {
   const TemporaryFolder place;
   for (const char* name : {"there", "elsewhere"}) fs::create_directory(place.path() / name);
   fs::create_directory_symlink("elsewhere", place.path() / "link");
@@ -96,7 +96,7 @@ TEST_CASE("a fresh folder may take the place of an empty one, and where a link l
   CHECK(entries(place.path()) == 3);
 }
 
-TEST_CASE("a fresh folder that could not get its name is refused at once") {
+TEST_CASE("a fresh folder that could not get its final name is refused at once") {
   const TemporaryFolder place;
   const In in(place.path());
   place.write("full/file", "old");

@@ -12,7 +12,7 @@
 
 using namespace svnet;
 
-// The HDF5 library leaks what it had decoded when it meets damage, and asks for as much memory as a file says.
+// On damage the HDF5 library leaks what it had decoded, and it allocates as much memory as a file says.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }
 extern "C" const char* __asan_default_options() { return "allocator_may_return_null=1"; }
 
@@ -38,8 +38,8 @@ void read_all_weights(const std::filesystem::path& path) {
     for (const auto& array : layer.arrays) file.values(array);
 }
 
-/// How many of `tries` damaged copies of `bytes` are refused: every third is cut, the others have one to four bytes
-/// changed.
+/// Returns how many of `tries` damaged copies of `bytes` are refused. Every third is cut; the others have one to four
+/// changed bytes.
 int refused_copies(const std::string& bytes, int tries, std::uint64_t seed,
                    const std::function<void(const std::filesystem::path&)>& read) {
   const TemporaryFolder folder;

@@ -42,7 +42,7 @@ void write_everything(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("what was written to an HDF5 file is read back") {
+TEST_CASE("values written to an HDF5 file are read back") {
   const TemporaryFolder folder;
   write_everything(folder.path() / "all.h5");
   const Hdf5File file = Hdf5File::open(folder.path() / "all.h5");
@@ -89,9 +89,9 @@ TEST_CASE("members are in natural order") {
   CHECK(file.members("") == Texts{"1", "2", "10"});
 }
 
-TEST_CASE("numbers that h5py wrote are read") {
+TEST_CASE("values that h5py wrote are read") {
   const Hdf5File file = Hdf5File::open(kH5py);
-  const auto packed = file.read<float>("packed");  // gzip and shuffle, the last chunk in part
+  const auto packed = file.read<float>("packed");  // gzip and shuffle; the last chunk is partial
   CHECK(packed.shape == Shape{100, 20});
   for (std::size_t i = 0; i < 2000; ++i) REQUIRE(packed.values[i] == static_cast<float>(i));
   CHECK(file.read<float>("float16").values == std::vector<float>{1, -0.5f, 0x1p-24f, 65504});
@@ -143,7 +143,7 @@ TEST_CASE("missing objects are named") {
   CHECK_THROWS_WITH(file.text_attribute("packed", "x"), kH5py + ": attribute 'x' of 'packed': is missing");
 }
 
-TEST_CASE("files that are no HDF5 are refused") {
+TEST_CASE("files that are not HDF5 are refused") {
   const TemporaryFolder folder;
   const std::string missing = (folder.path() / "missing.h5").string();
   CHECK_THROWS_WITH(Hdf5File::open(missing), missing + ": no such file");
@@ -178,7 +178,7 @@ TEST_CASE("text that is not plain UTF-8 is not written") {
   CHECK(Hdf5File::open(folder.path() / "a.h5").text_attribute("", "\xf4\x8f\xbf\xbf") == "\xf4\x8f\xbf\xbf");
 }
 
-TEST_CASE("what cannot be written is an error") {
+TEST_CASE("values that cannot be written are an error") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(Hdf5File::create(folder.path() / "no" / "a.h5"), Contains("no/a.h5: cannot be written: "));
   Hdf5File file = Hdf5File::create(folder.path() / "a.h5", "the file");

@@ -1,4 +1,4 @@
-// Files that HDF5 itself would read, made with its C interface, and that Hdf5File must not.
+// Files that the HDF5 library reads and Hdf5File must refuse, made with the C interface of HDF5.
 #include <array>
 #include <catch2/catch.hpp>
 #include <cstdlib>
@@ -15,7 +15,7 @@ using Catch::Contains;
 
 namespace {
 
-/// A file in the making, through the C interface. Identifiers are closed with the file.
+/// A file that is written through the C interface. Identifiers are closed with the file.
 class RawFile {
  public:
   explicit RawFile(const std::filesystem::path& path) {
@@ -154,7 +154,7 @@ TEST_CASE("many rows that share one long string are refused") {
     H5Dwrite(file.dataset("texts", {kRows}, text), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data());
   }
   CHECK(Hdf5File::open(path).read<std::string>("texts").values[999] == "another");
-  // A row is 16 bytes: length, address of the heap, number in the heap. All rows become the first.
+  // A row is 16 bytes: length, address of the heap, index in the heap. All rows become the first.
   std::string bytes = file_contents(path);
   const std::string length("\xa0\x86\x01\x00", 4);
   const std::size_t row = bytes.find(length);
@@ -197,7 +197,7 @@ TEST_CASE("an attribute that declares more than its header holds is refused") {
                     Contains("damaged.h5: ") && Contains("'fc1'") && Contains("its header is damaged"));
 }
 
-TEST_CASE("HDF5 prints nothing of its own, and its printing is left as it was") {
+TEST_CASE("HDF5 prints nothing, and its error printing is restored") {
   H5E_auto2_t before = nullptr, after = nullptr;
   void *before_data = nullptr, *after_data = nullptr;
   H5Eget_auto2(H5E_DEFAULT, &before, &before_data);

@@ -19,7 +19,7 @@ Image gradient(Index height, Index width) {
 }
 }  // namespace
 
-TEST_CASE("every kind of picture has the pixels that Pillow gives it") {
+TEST_CASE("every kind of image has Pillow's pixels") {
   std::istringstream expected(file_contents(kPictures / "expected.txt"));
   int cases = 0;
   std::string name, sha256;
@@ -33,13 +33,13 @@ TEST_CASE("every kind of picture has the pixels that Pillow gives it") {
   CHECK(cases == 17);
 }
 
-TEST_CASE("the contents say what a picture is, not the name") {
+TEST_CASE("the contents, not the name, decide the format of an image") {
   const TemporaryFolder folder;
   const fs::path path = folder.write("45_90.png", file_contents(kPictures / "rgb.jpg"));
   CHECK(read_image(path).rgb == read_image(kPictures / "rgb.jpg").rgb);
 }
 
-TEST_CASE("bytes after the end of a picture do no harm") {
+TEST_CASE("bytes after the end of an image do no harm") {
   const TemporaryFolder folder;
   for (const char* name : {"rgb.png", "rgb.jpg", "lossless.webp"}) {
     CAPTURE(name);
@@ -48,7 +48,7 @@ TEST_CASE("bytes after the end of a picture do no harm") {
   }
 }
 
-TEST_CASE("a written PNG reads back equal, and over an older one") {
+TEST_CASE("a written PNG reads back equal, and replaces an older one") {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "out.png";
   for (const auto& image : {gradient(1, 1), gradient(7, 300), gradient(64, 5)}) {

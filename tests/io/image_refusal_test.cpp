@@ -15,7 +15,7 @@ namespace fs = std::filesystem;
 namespace {
 const fs::path kPictures = SVNET_FIXTURES "/pictures";
 
-/// What read_image says, without the path that it begins with; "" where it reads.
+/// The error message of read_image without the path at its start; "" if it succeeds.
 std::string refusal(const fs::path& path) {
   try {
     read_image(path);
@@ -29,7 +29,7 @@ std::string refusal(const fs::path& path) {
   return "";
 }
 
-/// Sends stderr to a file for its lifetime.
+/// Redirects stderr to a file while this object exists.
 class CapturedStderr {
  public:
   explicit CapturedStderr(const fs::path& path) : before_(::dup(2)) {
@@ -48,7 +48,7 @@ class CapturedStderr {
 };
 }  // namespace
 
-TEST_CASE("what is no picture is refused with its reason") {
+TEST_CASE("files that are not images are refused with a reason") {
   const TemporaryFolder folder;
   CHECK(refusal(folder.path() / "none.png") == "no such file");
   CHECK(refusal(folder.path()) == "is a folder, expected a picture (PNG, JPEG or WebP)");
@@ -61,7 +61,7 @@ TEST_CASE("what is no picture is refused with its reason") {
   CHECK(refusal(kPictures / "animated.webp") == "is an animated WebP, expected a single picture");
 }
 
-TEST_CASE("a picture that may not be read is refused with the system's reason") {
+TEST_CASE("an image that may not be read is refused with the system's reason") {
   if (::geteuid() == 0) {
     WARN("skipped: root may read everything");
     return;
@@ -72,7 +72,7 @@ TEST_CASE("a picture that may not be read is refused with the system's reason") 
   CHECK(refusal(path) == "cannot be read: Permission denied");
 }
 
-TEST_CASE("a picture cut short anywhere is refused, quietly") {
+TEST_CASE("an image truncated anywhere is refused, and nothing is printed") {
   const TemporaryFolder folder;
   const fs::path noise = folder.path() / "stderr.txt";
   for (const char* name : {"rgb.png", "palette.png", "rgb16.png", "rgb.jpg", "progressive.jpg", "grey.jpg",
@@ -90,7 +90,7 @@ TEST_CASE("a picture cut short anywhere is refused, quietly") {
   }
 }
 
-TEST_CASE("a cut picture says so") {
+TEST_CASE("a truncated image is named as truncated") {
   const TemporaryFolder folder;
   const auto cut = [&](const char* name, std::size_t bytes) {
     const std::string whole = file_contents(kPictures / name);
@@ -114,7 +114,7 @@ TEST_CASE("a PNG with any changed byte of its pixels is refused") {
   }
 }
 
-TEST_CASE("a JPEG whose code breaks off inside is refused") {
+TEST_CASE("a JPEG whose entropy-coded data is broken is refused") {
   const TemporaryFolder folder;
   const std::string whole = file_contents(kPictures / "rgb.jpg");
   const std::string joined_ends = whole.substr(0, whole.size() - 60) + whole.substr(whole.size() - 2);
@@ -122,7 +122,7 @@ TEST_CASE("a JPEG whose code breaks off inside is refused") {
         "is a damaged or incomplete JPEG picture (Corrupt JPEG data: premature end of data segment); replace the file");
 }
 
-TEST_CASE("a picture too large is refused by its header alone") {
+TEST_CASE("an image too large is refused by its header alone") {
   const TemporaryFolder folder;
   // Only headers: 20000 columns of 20000 rows.
   const std::string png(

@@ -1,11 +1,11 @@
 #include "io/keras/keras_weights.h"
 
 #include <catch2/catch.hpp>
-#include <cstdlib>
 #include <limits>
 
 #include "base/error.h"
 #include "io/hdf5/hdf5_file.h"
+#include "shared_folder.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -38,7 +38,7 @@ KerasLayout keras_layout(const std::filesystem::path& path) { return KerasWeight
 
 std::string fixture(const std::string& name) { return SVNET_FIXTURES "/io/" + name; }
 
-/// Number `k` of the arrays of a model made by make_io_fixtures.py.
+/// Array `k` of a model made by make_io_fixtures.py.
 bool is_counted(const ReadArray& array, int k) {
   for (std::size_t i = 0; i < array.values.size(); ++i)
     if (array.values[i] != static_cast<float>(k) + static_cast<float>(i) / 64) return false;
@@ -81,7 +81,7 @@ TEST_CASE("legacy weights that Keras 3 wrote are read in the order of the model"
     for (const auto& array : layer.arrays) CHECK(is_counted(array, k++));
 }
 
-TEST_CASE("legacy weights of a whole model lie under model_weights") {
+TEST_CASE("legacy weights of a whole model are under model_weights") {
   const auto layers = read_weights(fixture("keras_model.h5"));
   REQUIRE(layers.size() == 1);
   CHECK(layers[0].path == "only");
@@ -202,7 +202,7 @@ TEST_CASE("Keras 3 weights of models inside models are read") {
   CHECK(is_counted(layers[1].arrays[1], 5));
 }
 
-TEST_CASE("Keras 3 layers are numbered, random states passed over, own weights last") {
+TEST_CASE("Keras 3 layers are in numeric order, random states are skipped, the model's own weights are last") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "w.weights.h5";
   Hdf5File file = Hdf5File::create(path);
@@ -226,7 +226,7 @@ TEST_CASE("Keras 3 layers are numbered, random states passed over, own weights l
   CHECK(layers[4].arrays[0].values[0] == 7);
 }
 
-TEST_CASE("Keras 3 weights with a hole are refused") {
+TEST_CASE("Keras 3 weights with a missing layer are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "w.weights.h5";
   Hdf5File file = Hdf5File::create(path);
@@ -236,10 +236,9 @@ TEST_CASE("Keras 3 weights with a hole are refused") {
                     Contains("w.weights.h5: group 'layers/dense/vars' holds '1' where '0' is expected"));
 }
 
-TEST_CASE("a real MobileNetV2 is read whole") {
-  const char* shared = std::getenv("SVNET_SHARED");
-  const std::filesystem::path path = std::filesystem::path(shared ? shared : SVNET_SOURCE_DIR "/../shared") /
-                                     "weights" / "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5";
+TEST_CASE("a real MobileNetV2 is read completely") {
+  const std::filesystem::path path =
+      shared_folder("weights/mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5");
   if (!std::filesystem::exists(path)) {
     WARN("skipped: " << path.string() << " is absent");
     return;

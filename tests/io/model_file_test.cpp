@@ -39,7 +39,7 @@ bool equal(const Tensor& a, const Tensor& b) {
 
 }  // namespace
 
-TEST_CASE("a model comes back with the same bits") {
+TEST_CASE("a model is read with the same bits") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "model.safetensors";
   const Model model = small_model();
@@ -58,7 +58,7 @@ TEST_CASE("a model comes back with the same bits") {
   CHECK(equal(score(model), score(back)));
 }
 
-TEST_CASE("a model says how many orientations of the top image it looks at, where not one") {
+TEST_CASE("a model file says the number of orientations of the top image if it is not 1") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "model.safetensors";
   const auto written = [&](int orientations, Index height) {
@@ -120,7 +120,7 @@ TEST_CASE("every kind of layer survives JSON") {
   for (std::size_t i = 0; i < g.nodes().size(); ++i) CHECK(back.nodes()[i].shape == g.nodes()[i].shape);
 }
 
-TEST_CASE("a graph that is none is refused with its node and attribute") {
+TEST_CASE("a wrong graph is refused with its node and attribute") {
   auto json = graph_to_json(sv_net({.features = 4, .width = 2}));
   auto broken = json;
   broken[2]["units"] = "many";
@@ -138,7 +138,7 @@ TEST_CASE("a graph that is none is refused with its node and attribute") {
   CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 3 'mlp1_1_bn': [graph] no layer 'nobody'"));
 }
 
-TEST_CASE("a file that is no model, or has other tensors, is refused") {
+TEST_CASE("a file that is not a model, or has other tensors, is refused") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "model.safetensors";
   write_checkpoint(path, {.input_fingerprint = "x", .metrics = "", .parameters = {}, .optimizer = {}});
@@ -155,7 +155,7 @@ TEST_CASE("a file that is no model, or has other tensors, is refused") {
   model.head_parameters.set("mlp1_1_fc/bias", Tensor::zeros({9}));
   write_model(path, model);
   CHECK_THROWS_WITH(read_model(path), path.string() + ": tensor 'head/mlp1_1_fc/bias' is 9, expected 8");
-  // A value that is not finite is neither written nor read.
+  // Values that are not finite are neither written nor read.
   const std::string not_finite = path.string() + ": tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3";
   model = small_model();
   write_model(path, model);
@@ -173,7 +173,7 @@ TEST_CASE("a file that is no model, or has other tensors, is refused") {
                     Catch::EndsWith("tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3"));
 }
 
-TEST_CASE("a checkpoint comes back") {
+TEST_CASE("a checkpoint is read as it was written") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "checkpoint.safetensors";
   const Graph graph = sv_net({.features = 4, .width = 2});

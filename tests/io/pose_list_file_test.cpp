@@ -28,7 +28,7 @@ TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
         std::vector<CameraPose>{{0, 45}, {90, 60}});
 }
 
-TEST_CASE("a pose list that is none is refused with file and line") {
+TEST_CASE("a wrong pose list is refused with file and line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) {
     const auto path = folder.write("poses.csv", contents);

@@ -135,7 +135,7 @@ TEST_CASE("tensors that cannot be read again are not written") {
   CHECK_THROWS_WITH(write_safetensors(folder.path() / "no" / "a", std::span(&good, 1)), Contains("does not exist"));
 }
 
-TEST_CASE("files that are no safetensors are refused") {
+TEST_CASE("files that are not safetensors are refused") {
   const TemporaryFolder folder;
   CHECK_THROWS_WITH(SafetensorsFile(folder.path() / "none"), Contains("none: cannot be read: No such file"));
   CHECK_THROWS_WITH(SafetensorsFile(folder.path()), Contains("is not a regular file"));

@@ -61,7 +61,7 @@ TEST_CASE("scores are read as they were written, views without a score too") {
                                                                      "rank_stability", "scaled", "standard_error"});
 }
 
-TEST_CASE("scores that cannot be true are refused, written or read") {
+TEST_CASE("impossible scores are refused, written or read") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "s.h5";
   const auto message = [&](auto change) {
@@ -95,7 +95,7 @@ TEST_CASE("scores that cannot be true are refused, written or read") {
   CHECK_THROWS_WITH(read_scores(path), Contains("s.h5: attribute 'problems': is -1, expected a count"));
 }
 
-TEST_CASE("a snapshot of scores is read as it was written, and nothing else is taken for one") {
+TEST_CASE("a snapshot of scores is read as it was written, and other files are refused") {
   const TemporaryFolder folder;
   const auto path = snapshot_path(folder.path() / "scores.h5");
   CHECK(path.filename() == "scores.h5.snapshot");

@@ -9,7 +9,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Reading a dataset that is whole but for `extra`, whose path must begin the message, fails with `reason` in it.
+/// Checks that reading a good dataset with the file or folder `extra` fails with "<path of extra>: <reason>".
 void check_refused(const fs::path& extra, const std::string& reason, bool as_folder = false) {
   const TemporaryFolder folder;
   folder.write("mug/1/1/90_90.png", "");
@@ -32,7 +32,7 @@ constexpr const char* kNotAView =
 
 }  // namespace
 
-TEST_CASE("a file that is no view is named") {
+TEST_CASE("a file that is not a view is named") {
   for (const char* name : {"45-90.png", "45_.png", "a_90.png", "45_90_1.png", "45.5_90.png", "-45_90.png", "+45_90.png",
                            "45 _90.png", "top.png", "00045_90.png"}) {
     CAPTURE(name);
@@ -87,7 +87,7 @@ TEST_CASE("a pose without its top view is named") {
       (folder.path() / "mug/1/1").string() + ": pose without its top view; expected 90_90.png, .jpg, .jpeg or .webp");
 }
 
-TEST_CASE("a root that is not a dataset says what one is") {
+TEST_CASE("a root that is not a dataset says what a dataset is") {
   const TemporaryFolder folder;
   const std::string expected =
       "folders category/object/pose with views PHI_THETA.png, .jpg, .jpeg or .webp, such as "
@@ -102,7 +102,7 @@ TEST_CASE("a root that is not a dataset says what one is") {
                     file.string() + ": is not a folder; expected a data set (" + expected + ")");
 }
 
-TEST_CASE("a link that leads nowhere is named") {
+TEST_CASE("a broken link is named") {
   const TemporaryFolder folder;
   folder.write("mug/1/1/90_90.png", "");
   const fs::path link = folder.path() / "bowl";

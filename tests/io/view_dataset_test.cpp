@@ -55,7 +55,7 @@ TEST_CASE("categories, objects, poses and views are numbered in natural order") 
   CHECK(dataset.views_of(3).front().path == "mug/10/a/90_90.png");
 }
 
-TEST_CASE("hidden names, names with an underscore and files beside the categories are ignored") {
+TEST_CASE("hidden names, names with an underscore and files next to the categories are ignored") {
   const TemporaryFolder folder;
   for (const char* path :
        {"mug/1/1/90_90.png", "manifest.json", "_extra/depth.bin", ".git/x", "mug/_note.txt", "mug/.DS_Store",
@@ -64,7 +64,7 @@ TEST_CASE("hidden names, names with an underscore and files beside the categorie
   CHECK(paths(read_view_dataset(folder.path())) == std::vector<std::string>{"mug/1/1/90_90.png"});
 }
 
-TEST_CASE("paths are relative however the root is written") {
+TEST_CASE("paths are relative, however the root is written") {
   const TemporaryFolder folder;
   folder.write("data/mug/1/1/90_90.png", "");
   const fs::path before = fs::current_path();

@@ -16,7 +16,7 @@ using namespace svnet;
 
 namespace {
 
-/// A block of 120 x 60 x 40 mm, its edges along the table's axes.
+/// A block of 120 x 60 x 40 mm with its edges along the table's axes.
 Mesh block() {
   Sculptor sculptor;
   sculptor.use({.colour = {0.7f, 0.1f, 0.05f}});
@@ -24,7 +24,7 @@ Mesh block() {
   return sculptor.take();
 }
 
-/// Table and light of a quiet room.
+/// The table and the light of a simple room.
 Setting plain_setting() {
   Setting setting;
   setting.table.colour = setting.table.second = {0.5f, 0.5f, 0.5f};
@@ -57,7 +57,7 @@ std::string refusal(const RgbdPicture& before, const RgbdPicture& after) {
 
 }  // namespace
 
-TEST_CASE("a block is found where it is, with its size, under a light that changed a little") {
+TEST_CASE("a block is found with its place and size, after a small change of the light") {
   const Mesh mesh = block();
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
   for (const float exposure : {0.95f, 1.0f, 1.05f}) {
@@ -76,7 +76,7 @@ TEST_CASE("a block is found where it is, with its size, under a light that chang
   }
 }
 
-TEST_CASE("holes in depth are tolerated") {
+TEST_CASE("pixels without depth are tolerated") {
   const Mesh mesh = block();
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
   RgbdPicture after = picture(&mesh, 0, 0, 1, 2);
@@ -87,7 +87,7 @@ TEST_CASE("holes in depth are tolerated") {
   CHECK(object.height_m == Approx(0.04).margin(0.004));
 }
 
-TEST_CASE("a knife that stands on its edge is found to its tip, though its blade looks like a shadow from above") {
+TEST_CASE("a knife on its edge is found up to its tip, although its blade looks like a shadow from above") {
   const Mesh mesh = catalogue_object("knife", 2, 6);
   for (const std::uint64_t seed : {1, 2, 3}) {
     INFO("seed " << seed);
@@ -103,7 +103,7 @@ TEST_CASE("nothing, a part of an object, and several objects are refused") {
   CHECK_THAT(refusal(before, picture(nullptr, 0, 0, 1.03f, 3)), Catch::StartsWith("[localise] nothing is found"));
   CHECK_THAT(refusal(before, picture(&mesh, 0.5, 0, 1, 4)),
              Catch::StartsWith("[localise] the object is cut off by the border of the picture"));
-  // Two pictures put together, one half from each.
+  // Two images put together, one half from each.
   RgbdPicture two = picture(&mesh, -0.2, 0, 1, 5);
   const RgbdPicture other = picture(&mesh, 0.2, 0, 1, 6);
   for (Index y = 0; y < 480; ++y) {
@@ -115,13 +115,13 @@ TEST_CASE("nothing, a part of an object, and several objects are refused") {
   CHECK(find(before, two, {.take_largest = true}).length_m == Approx(0.12).margin(0.006));
 }
 
-TEST_CASE("the soft enclosing circle is the smallest one where that is certain, and steadier where it is not") {
+TEST_CASE("the soft enclosing circle is the smallest one for certain points, and more robust for uncertain ones") {
   const std::vector<cv::Point2f> square{{0, 0}, {80, 0}, {80, 80}, {0, 80}};
   const cv::Point2d middle = soft_enclosing_centre(square, 0.5);
   CHECK(middle.x == Approx(40).margin(1e-3));
   CHECK(middle.y == Approx(40).margin(1e-3));
 
-  // The tip of a handle and the corners of what it holds, one of which was seen a millimetre too far out.
+  // The tip of a handle and the corners of the head; one corner was measured a millimetre too far out.
   const std::vector<cv::Point2f> fork{{0, 0}, {200, -12}, {200, 12}}, seen{{0, 0}, {201, -12}, {200, 12}};
   const auto exact = [](const std::vector<cv::Point2f>& points) {
     cv::Point2f centre;
@@ -139,7 +139,7 @@ TEST_CASE("the soft enclosing circle is the smallest one where that is certain, 
   CHECK(alone.y == Approx(4));
 }
 
-TEST_CASE("exchanged pictures and a camera upside down are refused") {
+TEST_CASE("exchanged images and a camera upside down are refused") {
   const Mesh mesh = block();
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0.05, 0, 1, 4);
   CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the pictures of the table and of the object "
@@ -149,7 +149,7 @@ TEST_CASE("exchanged pictures and a camera upside down are refused") {
       Catch::StartsWith("[localise] the camera looks upwards"));
 }
 
-TEST_CASE("pictures of another size than the camera's are refused") {
+TEST_CASE("images of another size than the camera's are refused") {
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
   RgbdPicture small = before;
   small.rgb = {2, 2, std::vector<std::uint8_t>(12)};
@@ -161,17 +161,17 @@ TEST_CASE("pictures of another size than the camera's are refused") {
 
 namespace {
 
-/// Errors in millimetres: x, y, z of GC, length, width, height. 1000 where the object is not found.
+/// Errors in millimetres: x, y, z of GC, length, width, height. 1000 if the object is not found.
 using Errors = std::array<double, 6>;
 
-/// What objects, poses and pictures are drawn with. Localisation was developed on the first, and on (101, 103), (201,
-/// 202) to (207, 208); not on the others.
+/// The seeds of objects, poses and images. Localisation was developed on the first pair, and on (101, 103), (201,
+/// 202) to (207, 208), not on the others.
 struct Seeds {
   std::uint32_t shapes, poses;
 };
 constexpr Seeds kDevelopment{1, 3}, kFresh[] = {{301, 302}, {303, 304}, {305, 306}};
 
-/// Localises objects 0 … count of the catalogue, category by category, each in another pose.
+/// Localises `count` objects of the catalogue, category by category, each in another pose.
 std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
   const auto& names = catalogue_names();
   const auto categories = static_cast<Index>(names.size());
@@ -209,7 +209,7 @@ std::vector<Errors> overview_errors(Index count, const Seeds& seeds) {
   return errors;
 }
 
-/// The error that a share of the objects does not exceed.
+/// The quantile of the errors: a fraction of the objects does not exceed it.
 double percentile(const std::vector<Errors>& errors, std::size_t which, double share) {
   std::vector<double> sizes;
   for (const Errors& error : errors) sizes.push_back(std::abs(error[which]));
@@ -219,7 +219,7 @@ double percentile(const std::vector<Errors>& errors, std::size_t which, double s
 
 }  // namespace
 
-TEST_CASE("objects of every category are found to millimetres, but for a few that hide from the camera") {
+TEST_CASE("objects of every category are found within millimetres, except a few that the camera hardly sees") {
   const std::vector<Errors> errors = overview_errors(29, kDevelopment);
   const double limits_mm[] = {3, 3, 4, 5, 5, 5};
   for (std::size_t which = 0; which < 6; ++which) {

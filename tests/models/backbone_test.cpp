@@ -15,7 +15,7 @@ using test::relative_distance;
 
 namespace {
 
-/// Parameters with batch norms that do something: every number of the graph drawn, variances positive.
+/// Random parameters, so that batch norms change values; variances are positive.
 Parameters drawn_parameters(const Graph& graph) {
   Parameters parameters = initial_parameters(graph, 5);
   std::uint64_t number = 0;
@@ -41,7 +41,7 @@ Tensor pictures(Index count, Index size) {
 
 }  // namespace
 
-TEST_CASE("networks have Keras' numbers of parameters and features") {
+TEST_CASE("networks have as many parameters and features as Keras'") {
   CHECK(backbone_kind("vgg16").graph(224, false).parameter_count() == 14714688);
   CHECK(backbone_kind("vgg16").graph(224, true).parameter_count() == 138357544);
   CHECK(backbone_kind("vgg19").graph(224, false).parameter_count() == 20024384);
@@ -63,7 +63,7 @@ TEST_CASE("an unknown backbone or layer is named with its nearest neighbour") {
                     Catch::Contains("did you mean 'conv_pw_5_relu'?"));
 }
 
-TEST_CASE("folding batch norms and activations changes nothing but rounding") {
+TEST_CASE("folding batch norms and activations changes only rounding") {
   const Graph graph = backbone_kind("tiny_xception").graph(64, false);
   const Parameters parameters = drawn_parameters(graph);
   const Tensor x = pictures(2, 64);
@@ -76,9 +76,9 @@ TEST_CASE("folding batch norms and activations changes nothing but rounding") {
   CHECK(folded(graph, parameters, graph.output()).graph.nodes().size() < graph.nodes().size() * 2 / 3);
 }
 
-TEST_CASE("compiled networks agree with the operations they are made of, at every layer") {
+TEST_CASE("compiled networks agree with plain operations, at every layer") {
   for (const auto& kind : backbone_kinds()) {
-    // Every layer of the small networks, some of the large ones; a size that leaves odd borders.
+    // Every layer of the small networks, some of the large ones; the size leaves odd borders.
     const bool small = kind.name.starts_with("tiny"), separable = !kind.name.starts_with("vgg");
     const Index size = separable ? 75 : 46;
     const Graph graph = kind.graph(size, false);
@@ -121,7 +121,7 @@ TEST_CASE("an encoding of angles is known by its name") {
                     "[sv_net] there is no angle encoding 'harmonic', did you mean 'harmonics'?");
 }
 
-TEST_CASE("the last block of every backbone takes nothing but the output of one layer") {
+TEST_CASE("the last block of every backbone has one input, the output of one layer") {
   const std::pair<const char*, const char*> first_layers[] = {
       {"vgg16", "block5_conv1"},   {"vgg19", "block5_conv1"},           {"xception", "block14_sepconv1"},
       {"mobilenet", "conv_dw_13"}, {"mobilenet_v2", "block_16_expand"}, {"tiny_xception", "block5_shortcut"}};
@@ -141,14 +141,14 @@ TEST_CASE("the last block of every backbone takes nothing but the output of one 
   }
 }
 
-TEST_CASE("what is trained may not reach past the frozen layers") {
+TEST_CASE("trained layers may not read layers below the last frozen one") {
   const Graph graph = backbone_kind("tiny_xception").graph(96, false);
   const Graph head = sv_net({.features = 256, .width = 4});
   CHECK_THROWS_WITH(trained_graph(graph, graph.find("block5_sepconv1"), graph.output(), head),
                     "[trained_graph] layer 'block5_shortcut' takes 'block4_act', which lies below 'block5_sepconv1'");
 }
 
-TEST_CASE("training changes copies of a backbone's numbers") {
+TEST_CASE("training changes copies of a backbone's parameters") {
   const BackboneKind& kind = backbone_kind("tiny_xception");
   const Graph graph = kind.graph(96, false), head = sv_net({.features = 256, .width = 4});
   Parameters backbone = initial_parameters(graph, 1), head_parameters;

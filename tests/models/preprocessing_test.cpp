@@ -30,7 +30,7 @@ TEST_CASE("preprocess gives Keras' bits for every grey level") {
   CHECK(cases == 3);
 }
 
-TEST_CASE("the modes do what they say") {
+TEST_CASE("the modes follow their definitions") {
   const std::uint8_t rgb[] = {255, 51, 0};
   float out[3];
   preprocess(PixelMode::none, rgb, 1, out);
@@ -41,7 +41,7 @@ TEST_CASE("the modes do what they say") {
   CHECK((out[0] == 1.0f && out[1] == Approx(-0.6) && out[2] == -1.0f));
 }
 
-TEST_CASE("prepare resizes where the size differs") {
+TEST_CASE("prepare resizes if the size differs") {
   const Image image{1, 2, {10, 20, 30, 40, 50, 60}};
   Preprocessing same{PixelMode::none, 1, 2, Interpolation::nearest};
   std::vector<float> out(same.size());

@@ -3,29 +3,26 @@
 #include <cstdlib>
 #include <string>
 
-#include "mpi/mpi_communicator.h"
 #include "temporary_folder.h"
 
 namespace svnet {
 
-/// Whether tests can start several processes; says why not.
+/// Whether tests can start several processes. Warns if not.
 inline bool can_run_ranks() {
-  if (!built_with_mpi()) {
-    WARN("skipped: built without MPI");
-    return false;
-  }
-  if (std::system("mpirun --version >/dev/null 2>&1") != 0) {
-    WARN("skipped: there is no mpirun");
-    return false;
-  }
-  return true;
+#ifdef SVNET_HAS_MPI
+  if (std::system("mpirun --version >/dev/null 2>&1") == 0) return true;
+  WARN("skipped: there is no mpirun");
+#else
+  WARN("skipped: built without MPI");
+#endif
+  return false;
 }
 
-/// The command line that runs `command` as so many processes on this machine.
+/// The command line that runs `command` as `ranks` processes on this machine.
 inline std::string with_ranks(int ranks, const std::string& command) {
-  // Where all mpirun of a machine share a folder, one may remove it while another makes it.
+  // A folder of its own for each mpirun: if several share one, one may remove it while another creates it.
   static const TemporaryFolder folder;
-  // Open MPI leaves memory of its plug-ins behind, which is no leak of ours.
+  // Open MPI does not free the memory of its plug-ins; that is not a leak of svnet.
   return "TMPDIR=" + folder.path().string() + " ASAN_OPTIONS=detect_leaks=0 mpirun -n " + std::to_string(ranks) +
          " --allow-run-as-root --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 " + command;
 }

@@ -34,7 +34,7 @@ class Workplace {
 
 }  // namespace
 
-TEST_CASE("svnet-score says how well the scores are known") {
+TEST_CASE("svnet-score says how reliable the scores are") {
   const Workplace place;
   const Ran ran = place.run("--output s.h5 --target-error 0.005 --exclude category1");
   CHECK(ran.err.find("semantic scores") != std::string::npos);
@@ -53,14 +53,14 @@ TEST_CASE("svnet-score says how well the scores are known") {
   CHECK_FALSE(std::filesystem::exists(place.folder.path() / "s.h5.snapshot"));
 }
 
-TEST_CASE("ranges of the sampler are options") {
+TEST_CASE("the ranges of the sampler are options") {
   const Workplace place;
   REQUIRE(place.run("--output s.h5 --problems 1000 --min-categories 2 --max-categories 3 --max-objects 2").status == 0);
   CHECK(read_scores(place.folder.path() / "s.h5").sampler ==
         "uniform; categories 2 to 3, objects 1 to 2, one pose, one view; singletons zero");
 }
 
-TEST_CASE("killed at random moments and resumed, svnet-score writes the same bytes") {
+TEST_CASE("svnet-score writes the same bytes if it is killed at random moments and resumed") {
   const Workplace place;
   const std::string rule = " --problems 1500000 --seed 3";
   REQUIRE(place.run("--output whole.h5" + rule).status == 0);
@@ -88,7 +88,7 @@ TEST_CASE("killed at random moments and resumed, svnet-score writes the same byt
   CHECK(place.contents("killed.h5") == place.contents("whole.h5"));
 }
 
-TEST_CASE("svnet-score resumes a snapshot after a number of problems, and only of the same scores") {
+TEST_CASE("svnet-score resumes a snapshot only with the same options") {
   const Workplace place;
   const std::string rule = "--problems 400000 --seed 4";
   REQUIRE(place.run("--output whole.h5 " + rule).status == 0);
@@ -103,7 +103,7 @@ TEST_CASE("svnet-score resumes a snapshot after a number of problems, and only o
         "the command that made it, or leave out --resume\n");
   place.folder.write("s.h5.snapshot", "damaged");
   CHECK_THAT(place.run("--output s.h5 --resume " + rule).err, Catch::StartsWith("svnet-score: s.h5.snapshot: "));
-  REQUIRE(place.run("--output s.h5 " + rule).status == 0);  // not asked to resume
+  REQUIRE(place.run("--output s.h5 " + rule).status == 0);  // without --resume
   CHECK(place.contents("s.h5") == place.contents("whole.h5"));
 }
 
@@ -119,7 +119,7 @@ TEST_CASE("one, two and three processes write the same scores") {
       INFO(ran.err);
       REQUIRE(ran.status == 0);
       CHECK(place.contents("ranks.h5") == place.contents("alone.h5"));
-      CHECK(ran.out.find("ranks.h5: ") == ran.out.rfind("ranks.h5: "));  // one of them reports
+      CHECK(ran.out.find("ranks.h5: ") == ran.out.rfind("ranks.h5: "));  // one process reports
       std::filesystem::remove(place.folder.path() / "ranks.h5");
     }
   }

@@ -9,7 +9,7 @@
 
 namespace svnet {
 
-/// A dataset of files that are no pictures, which scoring never opens as such, and features of it in features.h5:
+/// A dataset whose files are not images (scoring does not decode them), and its features in features.h5:
 /// `categories` categories of `objects` objects in one pose of `views` views.
 inline void write_views(const TemporaryFolder& folder, int categories, int objects, int views, Index dimension) {
   constexpr int kThetas[] = {0, 45, 90, 135, 180, 225, 315}, kPhis[] = {45, 60, 75};

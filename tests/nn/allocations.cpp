@@ -1,4 +1,4 @@
-// Counts tensors' storage by replacing the aligned operator new and delete, which nothing else in the tests uses.
+// Counts the storage of tensors by replacing the aligned operator new and delete, which only tensors use in the tests.
 #include "nn/allocations.h"
 
 #include <atomic>
@@ -9,7 +9,7 @@ namespace {
 
 std::atomic<std::size_t> in_use{0}, peak{0};
 
-/// The size is kept in front of the storage, one alignment before it.
+/// The size is stored in front of the storage, one alignment before it.
 void* allocate(std::size_t bytes, std::size_t alignment) {
   const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
   auto* start = static_cast<char*>(std::aligned_alloc(alignment, rounded + alignment));

@@ -3,7 +3,7 @@
 
 namespace svnet::test {
 
-/// Bytes of aligned storage (tensors' numbers) that are in use now, and the most since reset_peak().
+/// Bytes of tensor storage in use now, and the maximum since reset_peak().
 std::size_t bytes_in_use();
 std::size_t peak_bytes();
 void reset_peak();

@@ -30,7 +30,7 @@ Tensor scaled(const Tensor& x, double factor) {
   return autograd::record(times(x), {x}, [times](const Tensor& dy, Gradients& g) { g.add(0, times(dy)); });
 }
 
-/// The same numbers; the gradient passes as it is.
+/// The same elements; the gradient passes unchanged.
 Tensor passed(const Tensor& x) {
   return autograd::record(x, {x}, [](const Tensor& dy, Gradients& g) { g.add(0, dy); });
 }
@@ -63,7 +63,7 @@ TEST_CASE("a tensor that is used twice receives the sum of its gradients") {
 }
 
 TEST_CASE("a gradient that several inputs share is not changed by adding to one of them") {
-  // add hands one dy to both inputs: a's sum must not leak into b's or into the seed.
+  // add passes one dy to both inputs: the sum of a must not change that of b, or the seed.
   const Tensor a = row({1, 2}).as_parameter(), b = row({3, 4}).as_parameter();
   const Tensor inner = ops::add({a, b});
   const Tensor y = ops::add({inner, passed(a), passed(a), b});
@@ -91,7 +91,7 @@ TEST_CASE("x + x gives twice the gradient") {
   CHECK(same_bits(gradients.of(x), row({2})));
 }
 
-TEST_CASE("a tape can be run once, and each part of it once") {
+TEST_CASE("a tape, and each part of it, can be run once") {
   const Tensor x = row({1}).as_parameter();
   const Tensor shared = scaled(x, 2), y = scaled(shared, 3), z = scaled(shared, 4);
   GradientMap gradients;
@@ -139,7 +139,7 @@ TEST_CASE("a chain of 100,000 operations is built, run and released without deep
     gradient = gradients.of(x).item();
   });
   CHECK(gradient == 1);
-  on_small_stack([&] {  // every node reached along two ways
+  on_small_stack([&] {  // every node is reached on two paths
     Tensor x = row({1}).as_parameter(), y = x;
     for (int i = 0; i < 100000; ++i)
       y = autograd::record(y, {y, y}, [i](const Tensor& dy, Gradients& g) { g.add(i % 2 == 0 ? 0 : 1, dy); });
@@ -150,7 +150,7 @@ TEST_CASE("a chain of 100,000 operations is built, run and released without deep
   CHECK(gradient == 2);
 }
 
-TEST_CASE("nothing is recorded where no input wants a gradient") {
+TEST_CASE("nothing is recorded if no input wants a gradient") {
   const auto token = std::make_shared<int>(0);
   const Tensor x = random_tensor({2, 3}, 1, DType::f64, 0.1, 1);
   const Tensor y = autograd::record(x.clone(), {x}, [token](const Tensor&, Gradients&) {});
@@ -163,7 +163,7 @@ TEST_CASE("nothing is recorded where no input wants a gradient") {
   CHECK_FALSE(recorded.unique());
 }
 
-TEST_CASE("closures are released while the tape is run, and with a tape that is dropped") {
+TEST_CASE("closures are released while the tape runs, and if a tape is dropped") {
   const auto token = std::make_shared<int>(0);
   Tensor x = row({1}).as_parameter(), y = x;
   std::vector<long> holders;  // of the token, as each closure runs
@@ -218,7 +218,7 @@ TEST_CASE("a dense layer's weight gradient reaches the sink as x and dy") {
   }
 }
 
-TEST_CASE("a map that keeps products forms them when it is asked, or when more arrives") {
+TEST_CASE("a map that keeps products forms them on request, or when more gradients arrive") {
   const Tensor x = random_tensor({4, 3}, 1), w = random_tensor({3, 5}, 2).as_parameter();
   const Tensor seed = random_tensor({4, 5}, 3);
   const auto run = [&](GradientMap& gradients, int times) {

@@ -56,7 +56,7 @@ TEST_CASE("moving statistics follow the batch as in PyTorch") {
   check_pair(r.variance, 0.9 * 2 + 0.1 * 20 / 3, 0.9 * 4 + 0.1 * 4 / 3);
 }
 
-TEST_CASE("inference normalises by the given statistics and leaves them alone") {
+TEST_CASE("inference normalises by the given statistics and does not change them") {
   const Tensor mean = pair(1, 2), variance = pair(4, 9),
                x = Tensor::from<double>({2, 2}, std::vector<double>{3, 5, 1, -4});
   const Tensor y = ops::batch_norm_inference(x, pair(2, 3), pair(0.5, -0.5), mean, variance, 0);

@@ -18,7 +18,7 @@ using namespace svnet::test;
 
 namespace {
 
-/// To 8 significant bits, ties to even.
+/// Rounds to 8 significant bits, ties to even.
 double rounded(double x) {
   int exponent = 0;
   const double mantissa = std::frexp(x, &exponent);
@@ -38,7 +38,7 @@ bool lacks_bf16() {
 
 }  // namespace
 
-TEST_CASE("numbers are rounded to the nearest bf16, ties to even") {
+TEST_CASE("floats are rounded to the nearest bf16, ties to even") {
   const Numbers drawn(1, 1000);
   for (Index i = 0; i < drawn.count; ++i)
     REQUIRE(std::bit_cast<float>(bf16_bits(drawn.get()[i]) << 16) == static_cast<float>(rounded(drawn.get()[i])));
@@ -55,7 +55,7 @@ TEST_CASE("numbers are rounded to the nearest bf16, ties to even") {
   }
 }
 
-TEST_CASE("packed gemm in bf16 multiplies rounded numbers, adds bias and residual, and clamps") {
+TEST_CASE("packed gemm in bf16 multiplies rounded operands, adds bias and residual, and clamps") {
   if (lacks_bf16()) return;
   Parallel parallel(2);
   for (Index rows : {1, 5, 13, 100})
@@ -108,7 +108,7 @@ TEST_CASE("convolutions in bf16 read windows in place, in rows and gathered") {
   }
 }
 
-TEST_CASE("separable convolutions in bf16 round what lies between their halves; NaN stays NaN") {
+TEST_CASE("separable convolutions in bf16 round the values between their halves; NaN stays NaN") {
   if (lacks_bf16()) return;
   Parallel parallel(2);
   for (const Window& w :

@@ -15,7 +15,7 @@ struct Sums {
   Tensor y, dx, dw;
 };
 
-/// The definition, in f64, on an image with its border written out: y = Σ x·w, dx = Σ dy·w, dw = Σ x·dy.
+/// The definition in f64 on a padded image: y = Σ x·w, dx = Σ dy·w, dw = Σ x·dy.
 Sums definition(const Conv2dShape& s, const Tensor& x, const Tensor& w, const Tensor& dy) {
   const Window& v = s.window;
   const Index height = (v.oh - 1) * v.stride_h + v.kh + v.h,
@@ -63,7 +63,7 @@ void check_convolution(const Conv2dShape& s) {
   const Sums size = definition(s, absolute(wide_x), absolute(wide_w), absolute(wide_dy));
   INFO(to_string(x.shape()) << " * " << to_string(w.shape()) << ", stride " << v.stride_h << "x" << v.stride_w
                             << ", border " << v.top << " " << v.left << ", " << name_of(kDType<T>));
-  // Numbers that are there before must not matter.
+  // The previous contents must not matter.
   Tensor y = Tensor::full(dy.shape(), 7, kDType<T>), dx = Tensor::full(x.shape(), 7, kDType<T>),
          dw = Tensor::full(w.shape(), 7, kDType<T>);
   const auto check_all = [&] {

@@ -14,7 +14,7 @@ using namespace svnet::test;
 
 namespace {
 
-/// Threads of one process in the place of processes.
+/// A communicator whose processes are threads of this one.
 class Meeting {
  public:
   explicit Meeting(int members) : size(members), everybody(members) {}
@@ -65,11 +65,11 @@ Made made(const Tensor& x, const Tensor& w, const Tensor& dy, Communicator* comm
 
 }  // namespace
 
-TEST_CASE("a communicator makes a dense layer's output and gradients with the bits of one process") {
+TEST_CASE("several processes give a dense layer's output and gradients with the bits of one process") {
   struct Sizes {
     Index m, c, k;
   };
-  // Few rows, streamed; more rows, in tiles of columns; many, in tiles of rows; and fewer tiles than processes.
+  // Few rows (streamed), more rows (tiles of columns), many rows (tiles of rows), and fewer tiles than processes.
   const auto [m, c, k] = GENERATE(Sizes{5, 130, 700}, Sizes{70, 90, 1100}, Sizes{800, 70, 33}, Sizes{3, 200, 1});
   const Tensor x = random_tensor({m, c}, 1, DType::f32), w = random_tensor({c, k}, 2, DType::f32),
                dy = random_tensor({m, k}, 3, DType::f32);

@@ -15,7 +15,7 @@ struct Sums {
   Tensor y, dx, dw;
 };
 
-/// The definition, in f64: every tap of every output, skipped where it lies outside the image.
+/// The definition in f64: every tap of every output that is inside the image.
 Sums definition(const DepthwiseShape& s, const Tensor& x, const Tensor& w, const Tensor& dy) {
   const Window& v = s.window;
   Sums sums{Tensor::zeros(dy.shape(), DType::f64), Tensor::zeros(x.shape(), DType::f64),

@@ -20,7 +20,7 @@ double dropped_fraction(const Tensor& y) {
 
 }  // namespace
 
-TEST_CASE("dropout drops its rate of the numbers and scales the others") {
+TEST_CASE("dropout drops the given fraction of elements and scales the others") {
   constexpr Index kCount = 200000;
   const Tensor x = Tensor::full({kCount}, 3);
   for (double rate : {0.1, 0.5, 0.75}) {
@@ -46,7 +46,7 @@ TEST_CASE("dropout masks depend on the seed and on the index") {
   CHECK_FALSE(same_bits(y, ops::dropout(x, 0.5, {.seed = 1, .index = 3})));
 }
 
-TEST_CASE("the backward of dropout uses the mask of the forward") {
+TEST_CASE("the backward pass of dropout uses the mask of the forward pass") {
   const Tensor x = Tensor::full({1003}, 1, DType::f64).as_parameter();
   const Tensor y = ops::dropout(x, 0.3, {.seed = 5, .index = 6});
   autograd::GradientMap gradients;
@@ -54,14 +54,14 @@ TEST_CASE("the backward of dropout uses the mask of the forward") {
   CHECK(same_bits(gradients.of(x), y.detached()));
 }
 
-TEST_CASE("dropout of rate 0 is the identity, and NaN that is dropped is gone") {
+TEST_CASE("dropout of rate 0 is the identity, and a dropped NaN becomes 0") {
   const Tensor x = random_tensor({10}, 1, DType::f32);
   CHECK(ops::dropout(x, 0, {}).data<float>() == x.data<float>());
   const Tensor y = ops::dropout(Tensor::full({1000}, std::nan("")), 0.5, {});
   CHECK(dropped_fraction(y) > 0.4);
 }
 
-TEST_CASE("dropout says which rates it takes") {
+TEST_CASE("dropout refuses other rates") {
   const Tensor x = Tensor::zeros({3});
   CHECK_THROWS_WITH(ops::dropout(x, 1, {}), "[dropout] rate must be in [0, 1), got 1");
   CHECK_THROWS_WITH(ops::dropout(x, -0.5, {}), "[dropout] rate must be in [0, 1), got -0.5");

@@ -47,7 +47,7 @@ TEST_CASE("epilogues add the bias and clamp for every number of columns, on ever
           kernels::apply(epilogue, 4, columns, stride, fast.data<float>());
           kernels::apply_reference(epilogue, 4, columns, stride, reference.data<float>());
           INFO(columns << " columns, clamp " << static_cast<int>(clamp) << (b != nullptr ? ", bias" : ""));
-          CHECK(same_bits(fast, truth));  // the numbers between the rows included
+          CHECK(same_bits(fast, truth));  // including the floats between the rows
           CHECK(same_bits(reference, truth));
         }
       }

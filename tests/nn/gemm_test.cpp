@@ -12,7 +12,7 @@ using kernels::GemmShape;
 namespace {
 
 /// One product by gemm, by gemm_serial and by gemm_reference against the sums in f64. Rows are `slack` longer than
-/// they need to be; the numbers between them must stay as they are.
+/// necessary; the floats between them must not change.
 template <class T>
 void check_product(GemmShape s, Index slack) {
   const Index a_rows = s.transpose_a ? s.k : s.m, b_rows = s.transpose_b ? s.n : s.k;
@@ -72,7 +72,7 @@ TEST_CASE("gemm multiplies at odd sizes and around its tiles") {
   check_sizes<double>(sizes);
 }
 
-TEST_CASE("gemm over no terms gives zeros, or what was there when it accumulates") {
+TEST_CASE("gemm over no terms gives zeros, or the previous values if it accumulates") {
   check_sizes<float>({{.m = 3, .n = 70, .k = 0},
                       {.m = 400, .n = 2, .k = 0},
                       {.m = 0, .n = 4, .k = 5},

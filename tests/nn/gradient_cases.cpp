@@ -108,7 +108,7 @@ void add_dense(Cases& cases) {
                      }});
 }
 
-/// Numbers from −5 to 5, at least 0.01 away from −3 and 3.
+/// Elements from −5 to 5, at least 0.01 away from −3 and 3.
 Tensor away_from_kinks_at_3(const Shape& shape) {
   Tensor x = random_tensor(shape, 46, DType::f64, -5, 5);
   for (Index i = 0; i < x.size(); ++i) {
@@ -120,7 +120,7 @@ Tensor away_from_kinks_at_3(const Shape& shape) {
 
 void add_activations(Cases& cases) {
   cases.push_back({"relu", "", {spaced_tensor(kImages, 16)}, [](const Inputs& in) { return ops::relu(in[0]); }});
-  // Shifted by 3, the numbers cover both kinks and stay 0.01 away from them.
+  // Shifted by 3, the elements cover both kinks and stay 0.01 away from them.
   Tensor around_both = spaced_tensor({451}, 17);
   for (Index i = 0; i < around_both.size(); ++i) around_both.data<double>()[i] += 3.0;
   cases.push_back({"relu6", "", {around_both}, [](const Inputs& in) { return ops::relu6(in[0]); }});

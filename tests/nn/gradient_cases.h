@@ -6,8 +6,8 @@
 
 namespace svnet::test {
 
-/// One line of the table that drives the gradient checks: what is computed, from which inputs. Inputs are f64; the
-/// function takes f32 as well.
+/// A row of the table of gradient checks: a function and its inputs. Inputs are f64; the
+/// function accepts f32 too.
 struct GradientCase {
   std::string op, what;  // "conv2d", "3x3 kernel, stride 2x3, padding same"
   std::vector<Tensor> inputs;

@@ -16,7 +16,7 @@ double weighted_sum(const Tensor& y, const Tensor& w) {
   return static_cast<double>(sum);
 }
 
-/// The tape's gradients of the inputs that are marked as wanted; empty handles for the others.
+/// The tape's gradients of the wanted inputs; empty tensors for the others.
 std::vector<Tensor> analytic(const Function& function, const std::vector<Tensor>& inputs, const Tensor& w,
                              const std::vector<bool>& wanted) {
   std::vector<Tensor> leaves;

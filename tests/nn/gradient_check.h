@@ -9,9 +9,9 @@ namespace svnet::test {
 
 using Function = std::function<Tensor(const std::vector<Tensor>& inputs)>;
 
-/// How far the tape's gradients are from central differences.
+/// The difference between the tape's gradients and central differences.
 struct GradientReport {
-  /// The largest over the inputs of max |analytic − numeric| / max |numeric|; infinite where a gradient is missing,
+  /// The largest over the inputs of max |analytic − numeric| / max |numeric|; infinite if a gradient is missing,
   /// has another shape, is NaN, or is 0 everywhere, so that nothing would be checked.
   double relative_error = 0;
   std::string worst;  // "input 1", and what was wrong with it

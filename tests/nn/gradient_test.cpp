@@ -41,7 +41,7 @@ std::vector<Tensor> gradients(const Function& function, const std::vector<Tensor
 
 }  // namespace
 
-TEST_CASE("gradients in f32 are those in f64 to 1e-5, relative L2") {
+TEST_CASE("gradients in f32 equal those in f64 to 1e-5, relative L2") {
   double largest = 0;
   for (const auto& c : gradient_cases()) {
     // Two rows of equal distance from their mean: the gradient of x cancels.
@@ -64,7 +64,7 @@ TEST_CASE("gradients in f32 are those in f64 to 1e-5, relative L2") {
 
 namespace {
 
-/// x² elementwise with the gradient `slope`·x·dy: right for slope 2 alone.
+/// x² elementwise with the gradient `slope`·x·dy, which is correct only for slope 2.
 Tensor square(const Tensor& x, double slope) {
   const auto times = [](const Tensor& a, const Tensor& b, double factor) {
     Tensor y = Tensor::empty(a.shape(), DType::f64);

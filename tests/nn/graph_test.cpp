@@ -75,7 +75,7 @@ TEST_CASE("a graph says which layer does not fit, and why") {
   CHECK_THROWS_WITH(add(FlattenLayer{}, {7}), "[graph] layer 'block1_conv1' takes node 7, which does not exist");
   CHECK_THROWS_WITH(graph.input("image", {1}), "[graph] layer name 'image' is empty or taken");
   CHECK_THROWS_WITH(graph.input("", {1}), "[graph] layer name '' is empty or taken");
-  CHECK(graph.nodes().size() == 3);  // what failed left nothing behind
+  CHECK(graph.nodes().size() == 3);  // a failed add() leaves no node
 }
 
 TEST_CASE("a graph finds layers by name and suggests the nearest") {
@@ -126,7 +126,7 @@ TEST_CASE("parameters have Keras' names, shapes and order") {
       same_bits(parameters.at("conv/kernel").detached(), initial_parameters(graph, 2).at("conv/kernel").detached()));
 }
 
-TEST_CASE("ancestors are what an output depends on") {
+TEST_CASE("ancestors are the layers that an output depends on") {
   Graph graph;
   const NodeId image = graph.input("image", {4});
   const NodeId a = graph.add("a", DenseLayer{.units = 3}, {image}), b = graph.add("b", DenseLayer{.units = 3}, {image});
@@ -146,7 +146,7 @@ TEST_CASE("a layer with attributes that make no sense is refused by its name") {
                     "[graph] layer 'drop': [Dropout] rate 1 is outside [0, 1)");
   CHECK_THROWS_WITH(g.add("pad", ZeroPadding2dLayer{Padding::of(0, -1, 0, 0)}, {image}),
                     "[graph] layer 'pad': [ZeroPadding2D] needs four numbers of zeros, none negative");
-  // Sizes whose sums or products would not fit into 64 bits.
+  // Sizes whose sums or products overflow 64 bits.
   constexpr Index kHuge = Index{1} << 62;
   CHECK_THROWS_WITH(g.add("pad", ZeroPadding2dLayer{Padding::of(kHuge, kHuge, 0, 0)}, {image}),
                     Catch::Contains("zeros are too many"));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <thread>
 
 #include "base/instruction_sets.h"
@@ -18,7 +17,7 @@ using namespace svnet::test;
 
 namespace {
 
-/// Parameters of which no bias, mean or variance is trivial.
+/// Parameters whose biases, means and variances are not trivial.
 Parameters drawn(const Graph& graph) {
   Parameters parameters = initial_parameters(graph, 3);
   std::uint64_t seed = 100;
@@ -31,7 +30,7 @@ Parameters drawn(const Graph& graph) {
 
 const Tensor kImages = random_tensor({3, 12, 10, 5}, 1, DType::f32);
 
-/// Every kind of layer, and every way in which one may be fused into another, or must not be.
+/// Every kind of layer, with every fusion that is possible and some that are not.
 Graph all_layers() {
   Graph g;
   const Padding same = Padding::same();
@@ -42,7 +41,7 @@ Graph all_layers() {
   const NodeId act = g.add("act", ActivationLayer{Activation::relu}, {x});
   x = g.add("separable", SeparableConv2dLayer{.filters = 32, .kh = 3, .kw = 3, .padding = same}, {act});
   x = g.add("norm", BatchNormLayer{}, {x});
-  x = g.add("sum", AddLayer{}, {x, trunk});  // two readers of trunk: nothing may be applied to it in place
+  x = g.add("sum", AddLayer{}, {x, trunk});  // trunk has two readers, so nothing may be applied to it in place
   x = g.add("sum_act", ActivationLayer{Activation::relu}, {x});
   const NodeId before = x = g.add("after_sum", SeparableConv2dLayer{.filters = 24, .kh = 3, .kw = 3}, {x});
   x = g.add("expand", Conv2dLayer{.filters = 40, .bias = false}, {x});
@@ -74,9 +73,9 @@ Graph all_layers() {
 
 }  // namespace
 
-TEST_CASE("a batch that is taken in groups gives what each sample gives alone") {
+TEST_CASE("a batch that runs in groups gives the results of single samples") {
   const Graph graph = all_layers();
-  for (const char* name : {"after_sum", "average"}) {  // below dense layers, which want the whole batch
+  for (const char* name : {"after_sum", "average"}) {  // before dense layers, which take the whole batch
     const Inference inference(graph, drawn(graph), graph.find(name));
     REQUIRE(inference.arena_size(10000) == inference.arena_size(20000));
     Index batch = 1;
@@ -98,7 +97,7 @@ TEST_CASE("a batch that is taken in groups gives what each sample gives alone") 
   CHECK(dense.arena_size(2000) > dense.arena_size(1000));
 }
 
-TEST_CASE("an arena has room for the last group, which may need more scratch memory than a whole one") {
+TEST_CASE("an arena is large enough for the last group, which may need more scratch memory than a full one") {
   Graph graph;
   NodeId x = graph.input("image", {12, 12, 480});
   for (const char* name : {"a", "b", "c"})
@@ -109,17 +108,17 @@ TEST_CASE("an arena has room for the last group, which may need more scratch mem
     for (Index last = 1; last < 15 && last < batch; ++last)
       if ((batch - last) % 15 == 0) CHECK(inference.arena_size(batch) >= inference.arena_size(last));
   }
-  CHECK(inference.arena_size(29) > inference.arena_size(15));  // 15 together, and 14 that are cut into larger blocks
+  CHECK(inference.arena_size(29) > inference.arena_size(15));  // 14 samples are cut into larger blocks
 }
 
-TEST_CASE("a compiled graph computes what its layers say, whichever layer is the output") {
+TEST_CASE("a compiled graph computes its layers, for any output layer") {
   const Graph graph = all_layers();
   const Parameters parameters = drawn(graph);
   for (const auto convolution :
        {runtime::Convolution::automatic, runtime::Convolution::direct, runtime::Convolution::winograd})
     for (NodeId output = 0; output <= graph.output(); ++output) {
       INFO("output " << graph.node(output).name << ", convolution " << static_cast<int>(convolution));
-      const Inference compiled(graph, parameters, output, convolution);
+      const Inference compiled(graph, parameters, output, {.convolution = convolution});
       CHECK(relative_distance(compiled.run({kImages}), infer(graph, parameters, {kImages}, {output})[0]) <= 5e-6);
     }
 }
@@ -148,7 +147,7 @@ Graph squeeze_and_excite() {
 
 }  // namespace
 
-TEST_CASE("compiled squeeze and excitation computes what its layers say, whichever layer is the output") {
+TEST_CASE("compiled squeeze and excitation computes its layers, for any output layer") {
   const Graph graph = squeeze_and_excite();
   const Parameters parameters = drawn(graph);
   for (NodeId output = 1; output <= graph.output(); ++output) {
@@ -160,9 +159,9 @@ TEST_CASE("compiled squeeze and excitation computes what its layers say, whichev
   }
 }
 
-TEST_CASE("compiling fuses what has one reader") {
+TEST_CASE("compiling fuses layers that have one reader") {
   const Graph graph = all_layers();
-  const auto program = runtime::compile(graph, drawn(graph), graph.output(), runtime::Convolution::automatic);
+  const auto program = runtime::compile(graph, drawn(graph), graph.output(), {});
   std::vector<std::string> layers;
   for (const auto& step : program.steps) layers.push_back(step.layer);
   CHECK(layers == std::vector<std::string>{"conv",
@@ -222,17 +221,21 @@ TEST_CASE("several threads may run one compiled graph") {
   for (const Tensor& result : results) CHECK(same_bits(result, expected));
 }
 
-TEST_CASE("SVNET_CONVOLUTION forces a kind of convolution in training, too") {
+TEST_CASE("an option forces a kind of convolution in training, too") {
   const Tensor x = random_tensor({1, 8, 8, 16}, 1, DType::f32), w = random_tensor({3, 3, 16, 16}, 2, DType::f32);
-  const auto trained = [&](const char* word) {
-    ::setenv("SVNET_CONVOLUTION", word, 1);
-    return ops::conv2d(x, w, {});
+  const auto trained = [&](kernels::Convolution convolution) {
+    return ops::conv2d(x, w, {.convolution = convolution});
   };
-  CHECK_FALSE(same_bits(trained("direct"), trained("winograd")));
-  ::setenv("SVNET_CONVOLUTION", "fast", 1);
-  CHECK_THROWS_WITH(kernels::convolution_from_environment(),
-                    "[SVNET_CONVOLUTION] 'fast' is neither direct nor winograd");
-  ::unsetenv("SVNET_CONVOLUTION");
+  CHECK_FALSE(same_bits(trained(kernels::Convolution::direct), trained(kernels::Convolution::winograd)));
+  CHECK(same_bits(trained(kernels::Convolution::automatic), trained(kernels::Convolution::winograd)));
+
+  Graph graph;
+  graph.add("conv", Conv2dLayer{.filters = 16, .kh = 3, .kw = 3}, {graph.input("image", {8, 8, 16})});
+  Parameters parameters = initial_parameters(graph, 1);
+  const auto step = [&](kernels::Convolution convolution) {
+    return train(graph, parameters, {x}, {graph.output()}, {.convolution = convolution})[0];
+  };
+  CHECK_FALSE(same_bits(step(kernels::Convolution::direct), step(kernels::Convolution::winograd)));
 }
 
 TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for any batch and number of threads") {
@@ -247,7 +250,7 @@ TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for 
        {"conv", "sum_act", "after_sum", "expand", "shortcut", "doubled", "join", "dense", "chances"}) {
     INFO(name);
     const auto compiled = [&](runtime::Precision precision) {
-      return Inference(graph, parameters, graph.find(name), runtime::Convolution::automatic, precision);
+      return Inference(graph, parameters, graph.find(name), {.precision = precision});
     };
     const Inference coarse = compiled(runtime::Precision::bf16);
     Tensor first;
@@ -268,31 +271,29 @@ TEST_CASE("in bf16 a compiled graph is near that in f32, with the same bits for 
   }
 }
 
-TEST_CASE("SVNET_PRECISION chooses bf16 where the machine has it") {
+TEST_CASE("an option chooses bf16 if the machine has it") {
   const Graph graph = all_layers();
-  const auto made = [&](const char* word) {
-    ::setenv("SVNET_PRECISION", word, 1);
-    return Inference(graph, drawn(graph), graph.output());
+  const auto made = [&](const InferenceOptions& options) {
+    return Inference(graph, drawn(graph), graph.output(), options);
   };
-  CHECK_THROWS_WITH(made("half"), "[SVNET_PRECISION] 'half' is neither f32 nor bf16");
-  for (const char* word : {"", "f32"}) {
-    const Inference plain = made(word);
+  const InferenceOptions bf16{.precision = runtime::Precision::bf16};
+  for (const InferenceOptions& options : {InferenceOptions{}, InferenceOptions{.precision = runtime::Precision::f32}}) {
+    const Inference plain = made(options);
     CHECK(plain.precision() == runtime::Precision::f32);
     for (const StepReport& step : plain.report(1)) CHECK(step.kernel.find("bf16") == std::string::npos);
   }
   if (kernels::machine_has_bf16()) {
     std::vector<std::string> kernels;
-    for (const StepReport& step : made("bf16").report(1)) kernels.push_back(step.kernel);
+    for (const StepReport& step : made(bf16).report(1)) kernels.push_back(step.kernel);
     for (const char* kernel : {"bf16 gemm 1x1", "depthwise 3x3 + bf16 gemm", "winograd 3x3", "implicit gemm 3x3"})
       CHECK(std::count(kernels.begin(), kernels.end(), kernel) > 0);
     for_instruction_sets([&](const std::string& name) {
       if (!name.starts_with("AVX3"))
-        CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
+        CHECK_THROWS_WITH(made(bf16), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
     });
   } else {
-    CHECK_THROWS_WITH(made("bf16"), Catch::Contains("bf16 needs a processor with AVX512-BF16"));
+    CHECK_THROWS_WITH(made(bf16), Catch::Contains("bf16 needs a processor with AVX512-BF16"));
   }
-  ::unsetenv("SVNET_PRECISION");
 }
 
 TEST_CASE("a compiled graph says what is wrong with its inputs") {
@@ -305,7 +306,7 @@ TEST_CASE("a compiled graph says what is wrong with its inputs") {
   CHECK(compiled.run({Tensor::zeros({0, 12, 10, 5})}).shape() == Shape{0, 4});
 }
 
-TEST_CASE("a plan's values never share memory while both live") {
+TEST_CASE("values of a plan never share memory while both are in use") {
   RandomStream random(4, Stream::weights);
   std::vector<runtime::Lifetime> values(60);
   for (auto& value : values) {

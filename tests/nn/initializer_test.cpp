@@ -25,7 +25,7 @@ Statistics statistics(const Tensor& x) {
 
 }  // namespace
 
-TEST_CASE("initialisers have the variance and the limits of Keras'") {
+TEST_CASE("initialisers have Keras' variance and limits") {
   // 3x3 windows of 10 channels to 50: fan_in 90, fan_out 450. Dense 400 to 100. Features alone: fan_in = fan_out.
   const auto check_law = [](Initializer initializer, const Shape& shape, double variance) {
     const Tensor x = initialised(initializer, shape, 5, 1, DType::f64);
@@ -65,7 +65,7 @@ TEST_CASE("normal initialisers are truncated normals, not uniform") {
   CHECK(inner / 200000 == Approx(0.682689492 / 0.954499736).margin(0.006));
 }
 
-TEST_CASE("initialisers depend on the seed and on the number of the parameter") {
+TEST_CASE("initialisers depend on the seed and on the index of the parameter") {
   const auto drawn = [](std::uint64_t seed, std::uint32_t number) {
     return initialised(Initializer::he_normal, {40, 50}, seed, number);
   };
@@ -76,7 +76,7 @@ TEST_CASE("initialisers depend on the seed and on the number of the parameter") 
   CHECK(same_bits(initialised(Initializer::ones, {3}, 1, 2), Tensor::full({3}, 1)));
 }
 
-TEST_CASE("runs of one large parameter are drawn from different numbers") {
+TEST_CASE("blocks of one large parameter use different random numbers") {
   const Tensor x = initialised(Initializer::he_uniform, {2, 1 << 14}, 1, 0, DType::f64);
   CHECK(x.data<double>()[0] != x.data<double>()[1 << 14]);
 }

@@ -42,7 +42,7 @@ TEST_CASE("layers come in the order of Keras' model.layers") {
   CHECK(names(graph, x) == whole);
 }
 
-TEST_CASE("layers of one depth come as a walk from the output first meets them") {
+TEST_CASE("layers of one depth are in the order in which a walk from the output meets them") {
   // Keras: a = Input, s = Dense(a), l = Dense(a), r = Dense(a), y = Add([r, Add([l, s])]).
   Graph graph;
   const NodeId a = graph.input("a", {4});

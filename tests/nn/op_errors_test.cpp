@@ -1,4 +1,4 @@
-// What the operations say where shapes, element types or numbers do not fit.
+// The messages of operations for shapes, element types or values that do not fit.
 #include <catch2/catch.hpp>
 
 #include "nn/ops/activations.h"

@@ -52,13 +52,13 @@ struct SgdByHand {
   double step(double g, int) { return u = 0.8 * u - kRate * g; }
 };
 
-/// Runs the optimiser from zeros, so that f32 keeps the whole precision of the updates.
+/// Runs the optimiser from zeros, so that f32 keeps the full precision of the updates.
 template <class Make>
 Tensor moved(DType dtype, const Make& make) {
   const Tensor parameter = Tensor::zeros({kCount}, dtype).as_parameter();
   const auto optimizer = make({parameter});
   for (int t = 1; t <= kSteps; ++t) {
-    // The f64 run sees the f32 run's numbers.
+    // The f64 run gets the gradients of the f32 run.
     autograd::GradientMap gradients;
     gradients.add(*parameter.node(), gradient(t, DType::f32).to(dtype));
     optimizer->step(gradients, kRate);
@@ -91,7 +91,7 @@ TEST_CASE("parameters without a gradient stay as they are") {
   CHECK(same_bits(without.detached(), before));
 }
 
-TEST_CASE("a restored optimiser goes on as if it had never stopped") {
+TEST_CASE("a restored optimiser continues as if it had not stopped") {
   for (const auto& make : {+[](std::vector<Tensor> p) { return adam(std::move(p)); },
                            +[](std::vector<Tensor> p) { return sgd(std::move(p), {.momentum = 0.8}); }}) {
     const Tensor parameter = random_tensor({kCount}, 1, DType::f32).as_parameter();
@@ -142,7 +142,7 @@ TEST_CASE("learning-rate schedules") {
   CHECK(warm.at(11) == Approx(0).margin(1e-15));
 }
 
-TEST_CASE("weight decay shrinks kernels alone, before the step and by the learning rate") {
+TEST_CASE("weight decay shrinks only kernels, before the step and by the learning rate") {
   const Tensor kernel = Tensor::full({2, 3}, 2).as_parameter(), bias = Tensor::full({3}, 2).as_parameter();
   const auto optimizer = adam({kernel, bias}, {.weight_decay = 0.1});
   autograd::GradientMap gradients;  // both receive the same gradient

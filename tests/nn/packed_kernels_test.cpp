@@ -131,10 +131,10 @@ TEST_CASE("direct and Winograd convolutions agree with the definition") {
   });
 }
 
-TEST_CASE("Winograd with many channels takes the way by channels, pools, and gives the same bits for any threads") {
+TEST_CASE("Winograd with many channels runs by channels, pools, and gives the same bits for any number of threads") {
   for_instruction_sets([&](const std::string& isa) {
     INFO(isa);
-    const Index c = 192, k = 192;  // more pairs than are kept transformed
+    const Index c = 192, k = 192;  // more pairs of channels than are kept transformed
     const Window w = window(3, 10, 11, c, 3, 1, Padding::same());
     const Numbers x(1, w.n * w.h * w.w * c), weights(2, 9 * c * k), bias(3, k);
     const WinogradWeights winograd = winograd_weights(c, k, weights.get(), bias.get());
@@ -304,7 +304,7 @@ TEST_CASE("a separable convolution that is pooled strip by strip gives the bits 
   });
 }
 
-TEST_CASE("pooling for inference gives the numbers of pooling for training") {
+TEST_CASE("pooling for inference gives the values of pooling for training") {
   Parallel parallel(2);
   for_instruction_sets([&](const std::string& isa) {
     for (const Window& w : {window(2, 9, 7, 19, 3, 2, Padding::same()), window(1, 8, 8, 16, 2, 2, Padding::valid()),

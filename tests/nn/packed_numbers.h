@@ -1,5 +1,5 @@
 #pragma once
-// What tests of packed kernels share: numbers, memory that nobody wrote, and how far a result is from the plain sums.
+// Helpers of tests of packed kernels: values, uninitialised memory, and the distance of a result from plain sums.
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -15,7 +15,7 @@ using kernels::Clamp;
 
 inline AlignedFloats scratch_memory(Index count) {
   AlignedFloats memory = aligned_floats(count);
-  std::fill_n(memory.get(), count, NAN);  // whoever reads what nobody wrote is found out
+  std::fill_n(memory.get(), count, NAN);  // reads of uninitialised memory show up
   return memory;
 }
 
@@ -24,7 +24,7 @@ inline Window window(Index n, Index h, Index w, Index c, Index kernel, Index str
                      {.kh = kernel, .kw = kernel, .stride_h = stride, .stride_w = stride, .padding = padding});
 }
 
-/// Numbers with a whole vector of room behind them, as kernels may expect.
+/// Values with a vector of padding, as kernels expect.
 struct Numbers {
   Numbers(std::uint32_t seed, Index size) : count(size), memory(aligned_floats(size)) {
     const Tensor drawn = random_tensor({size}, seed, DType::f32);
@@ -50,7 +50,7 @@ inline double distance(const float* actual, std::vector<double> expected, Index 
     difference += (actual[i] - y) * (actual[i] - y);
     norm += y * y;
   }
-  return difference == 0 ? 0 : std::sqrt(difference / norm);  // clamped numbers may all be 0
+  return difference == 0 ? 0 : std::sqrt(difference / norm);  // all clamped values may be 0
 }
 
 inline std::vector<double> wide(const float* x, Index count) { return {x, x + count}; }

@@ -103,7 +103,7 @@ TEST_CASE("NaN anywhere in a window passes through pooling") {
   }
 }
 
-TEST_CASE("global pooling gives one number per image and channel") {
+TEST_CASE("global pooling gives one value per image and channel") {
   const Tensor x = Tensor::from<float>({2, 1, 2, 2}, {1, -5, 3, -7, 10, 20, 30, 60});
   const auto average = ops::global_average_pool2d(x), largest = ops::global_max_pool2d(x);
   CHECK(same_bits(average, Tensor::from<float>({2, 2}, {2, -6, 20, 40})));

@@ -97,7 +97,7 @@ TEST_CASE("training uses the batch's statistics, moves the moving ones and drops
   CHECK_FALSE(same_bits(first[1].detached(), second[1].detached()));
 }
 
-TEST_CASE("two dropout layers of one step drop different numbers") {
+TEST_CASE("two dropout layers of one step drop different elements") {
   Graph graph;
   const NodeId x = graph.input("x", {1000});
   graph.add("a", DropoutLayer{}, {x});
@@ -108,7 +108,7 @@ TEST_CASE("two dropout layers of one step drop different numbers") {
 }
 
 TEST_CASE("values are released once their last reader has run") {
-  constexpr Index kSize = 1 << 13;  // below the size whose storage is kept for the next request
+  constexpr Index kSize = 1 << 13;  // small enough that freed storage is not kept
   Graph graph;
   NodeId x = graph.input("x", {kSize});
   for (int i = 0; i < 20; ++i) x = graph.add(joined("layer", i), ActivationLayer{Activation::sigmoid}, {x});
@@ -138,7 +138,7 @@ TEST_CASE("running says which inputs do not fit") {
   CHECK_THROWS_WITH(run({kImages.to(DType::f32), kAngles}), "[conv2d] operands mix f32 and f64");
 }
 
-TEST_CASE("an input that no wanted layer reads may be anything") {
+TEST_CASE("an input that no wanted layer reads is not checked") {
   const Graph graph = small_graph();
   const Parameters parameters = initial_parameters(graph, 3, DType::f64);
   CHECK(infer(graph, parameters, {kImages, {}}, {graph.find("pool")})[0].shape() == Shape{4, 4});

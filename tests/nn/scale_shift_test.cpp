@@ -57,7 +57,7 @@ TEST_CASE("scale and shift follow the definition for every number of channels, o
   for (Clamp clamp : kClamps) check_scale_shift<double>(131, 7, clamp);
 }
 
-TEST_CASE("NaN passes through scale and shift at every channel, whatever the clamp, on every instruction set") {
+TEST_CASE("NaN passes through scale and shift at every channel, with any clamp, on every instruction set") {
   for_instruction_sets([](const std::string& name) {
     INFO(name);
     constexpr Index kChannels = 39;  // full vectors and a tail

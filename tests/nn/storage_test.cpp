@@ -18,7 +18,7 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20;
 
 }  // namespace
 
-TEST_CASE("freed storage serves the next request of its size, never one while it is held") {
+TEST_CASE("freed storage is reused by the next request of its size, and never while it is in use") {
   auto first = allocate_storage(kMegabyte);
   const void* address = first.get();
   CHECK(reinterpret_cast<std::uintptr_t>(address) % 64 == 0);
@@ -34,7 +34,7 @@ TEST_CASE("freed storage serves the next request of its size, never one while it
   CHECK(allocate_storage(kMegabyte + 1).get() != address);
 }
 
-TEST_CASE("tensors on used storage start as they should") {
+TEST_CASE("tensors on reused storage have the right initial values") {
   const Shape shape{300, 300};
   std::memset(Tensor::empty(shape).data<float>(), 0x7f, 300 * 300 * sizeof(float));
   CHECK(same_bits(absolute(Tensor::zeros(shape)), Tensor::full(shape, 0)));
@@ -50,7 +50,7 @@ TEST_CASE("at most 256 MiB of freed storage are kept") {
   CHECK(bytes_in_use() - before <= 256 * kMegabyte);
 }
 
-TEST_CASE("storage is given to one holder at a time when several threads ask") {
+TEST_CASE("storage has one owner at a time if several threads request it") {
   std::vector<std::thread> threads;
   std::vector<int> disturbed(4, 0);
   for (unsigned char id = 0; id < 4; ++id)

@@ -8,7 +8,7 @@
 using namespace svnet;
 using namespace svnet::test;
 
-TEST_CASE("tensors share numbers when they are copied and not when they are cloned") {
+TEST_CASE("copies of tensors share storage, clones do not") {
   Tensor x = Tensor::from<float>({2, 2}, {1, 2, 3, 4});
   CHECK(x.unique());
   Tensor shared = x, other = x.clone();
@@ -21,7 +21,7 @@ TEST_CASE("tensors share numbers when they are copied and not when they are clon
   CHECK(same_bits(other.to(DType::f64).to(DType::f32), other));
 }
 
-TEST_CASE("tensors know their shape and start on 64 bytes") {
+TEST_CASE("tensors have a shape and are 64-byte aligned") {
   const Tensor x = Tensor::zeros({2, 3, 5}, DType::f64);
   CHECK(x.size() == 30);
   CHECK(x.rank() == 3);

@@ -1,4 +1,5 @@
-// The same bits for 1, 2 and 8 threads: every kernel at sizes of several chunks, and a network forwards and backwards.
+// The same bits for 1, 2 and 8 threads: every kernel at sizes of several chunks, and a network's forward and backward
+// passes.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -8,6 +9,7 @@
 #include "nn/kernels/gemm.h"
 #include "nn/numbers.h"
 #include "nn/ops/activations.h"
+#include "nn/ops/batch_norm.h"
 #include "nn/ops/conv2d.h"
 #include "nn/ops/dense.h"
 #include "nn/ops/dropout.h"

@@ -9,7 +9,7 @@ _lines = []
 
 @pytest.fixture
 def report():
-    """report(text): a line that is printed when all tests are done."""
+    """report(text): prints a line after all tests are done."""
     return _lines.append
 
 
@@ -22,7 +22,7 @@ def pytest_terminal_summary(terminalreporter):
 
 @pytest.fixture(scope="session")
 def shared():
-    """shared(path): a file or folder of the data that are too large for the repository; skips where it is missing."""
+    """shared(path): a file or folder of the data that is too large for the repository. Skips the test if it is missing."""
     root = pathlib.Path(os.environ.get("SVNET_SHARED", pathlib.Path(__file__).parents[2].parent / "shared"))
 
     def find(relative):
@@ -43,14 +43,14 @@ def picture(path, size=224):
 
 @pytest.fixture(scope="session")
 def photographs(shared):
-    """64 photographs spread over ETH-80, uint8 (64, 224, 224, 3)."""
+    """64 photographs from all of ETH-80, uint8 (64, 224, 224, 3)."""
     paths = sorted(shared("data/eth80").rglob("*.jpg"))
     return np.stack([picture(path) for path in paths[:: len(paths) // 64][:64]])
 
 
 @pytest.fixture(scope="session")
 def drawings():
-    """Synthetic pictures, uint8 (8, 224, 224, 3): smooth colours, edges and noise, saturated here and there."""
+    """Synthetic images, uint8 (8, 224, 224, 3): smooth colours, edges and noise, some pixels saturated."""
     random = np.random.default_rng(224)
     y, x = np.mgrid[0:224, 0:224] / 224
     pictures = []

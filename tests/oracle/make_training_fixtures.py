@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes what Keras does in ten training steps: vgg_like.safetensors, sv_net.safetensors and fine_tuned.safetensors.
+"""Records ten training steps of Keras: vgg_like.safetensors, sv_net.safetensors and fine_tuned.safetensors.
 
 Usage: make_training_fixtures.py FOLDER [--large]. Needs Keras with TensorFlow, and safetensors (the committed files in
 tests/fixtures/training: Keras 3.15.1, TensorFlow 2.21.0, without --large). tests/train/replay_training_test.cpp replays
@@ -44,7 +44,7 @@ def randomised_norms(model, random):
 
 
 def trained(name, model, loss, optimizer, inputs, targets):
-    """The losses of the steps and the outputs after them; inputs, targets: lists of (B, 8, …) as the model takes them."""
+    """Returns the losses of the steps and the outputs after them. inputs, targets: lists of (B, 8, …), as the model takes them."""
     losses = []
     for step in range(STEPS):
         batch = step % len(targets)
@@ -59,7 +59,7 @@ def trained(name, model, loss, optimizer, inputs, targets):
 
 
 def record(path, model, loss, optimizer, learning_rate, inputs, targets, given):
-    """optimizer: makes one for a learning rate; given: the tensors that are written for inputs and targets."""
+    """optimizer: makes an optimizer for a learning rate. given: the tensors that are written for inputs and targets."""
     tensors = given | weights_of(model)
     tensors |= trained(path.name, model, loss, optimizer(learning_rate), inputs, targets)
     save_file(tensors, path, metadata={"learning_rate": repr(learning_rate)})
@@ -79,7 +79,7 @@ def vgg_like(path, filters, units, batches):
     for layer in model.layers:
         if layer.weights:
             layer.bias.assign(random.normal(0, 0.1, layer.bias.shape))
-    # Every class has a colour, so that there is something to learn.
+    # Every class has its own colour, so that the network can learn.
     classes = random.integers(8, size=(batches, BATCH))
     colours = random.uniform(40, 215, size=(8, 3))
     images = colours[classes][:, :, None, None, :] + random.normal(0, 40, size=(batches, BATCH, 16, 16, 3))
@@ -139,7 +139,7 @@ def sv_net(path, features, width, batches):
 
 
 def fine_tuned(path, filters, width, batches):
-    """Three blocks of 3×3 convolution, batch norm and max pooling below SV-net: all trained, or but the last block frozen."""
+    """Three blocks of 3×3 convolution, batch norm and max pooling below SV-net. Trains all of them, or only the last block."""
     keras.utils.set_random_seed(41)
     random = np.random.default_rng(42)
     inputs = [keras.Input((16, 16, 3), name="image"), keras.Input((2,), name="angles")]
@@ -178,8 +178,8 @@ folder.mkdir(parents=True, exist_ok=True)
 if "--large" in sys.argv[2:]:
     vgg_like(folder / "vgg_like.safetensors", [32, 64, 64], 128, 10)
     sv_net(folder / "sv_net.safetensors", 512, 256, 10)
-    # No larger: Adam's first steps have the size of the rate however small the gradient, so that rounding in gradients near
-    # 0 grows into steps of its own, the more of them there are.
+    # No larger rate: Adam's first steps have the size of the rate even if the gradient is tiny. So rounding errors in
+    # gradients near 0 become full steps.
     fine_tuned(folder / "fine_tuned.safetensors", [16, 16, 16], 16, 4)
 else:
     vgg_like(folder / "vgg_like.safetensors", [4, 8, 8], 16, 4)

@@ -8,7 +8,7 @@ import svnet
 
 
 def points(random, largest):
-    """Groups of normal points, from well apart to one cloud, here and there far from the origin."""
+    """Groups of normal points, from well separated to one cloud; some are far from the origin."""
     n, d = int(random.integers(4, largest)), int(random.integers(1, 64))
     centres = random.normal(size=(int(random.integers(1, 12)), d)) * random.choice([0.0, 1.0, 3.0])
     x = centres[random.integers(len(centres), size=n)] + random.normal(size=(n, d)) + random.choice([0.0, 100.0])

@@ -1,4 +1,4 @@
-"""The real MobileNetV2 recognises what is on two pictures."""
+"""The real MobileNetV2 recognises the objects in two images."""
 import numpy as np
 import pytest
 from conftest import picture

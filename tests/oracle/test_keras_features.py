@@ -1,4 +1,4 @@
-"""Features of the backbones against Keras, from weights files that Keras wrote."""
+"""Compares features of the backbones with Keras, with weights files that Keras wrote."""
 import h5py
 import keras
 import numpy as np
@@ -8,7 +8,7 @@ from keras.src.legacy.saving import legacy_h5_format
 
 import svnet
 
-# Bars of the relative L2 error of every image's features.
+# Largest relative L2 error of the features of an image.
 BARS = {"vgg16": 2e-5, "vgg19": 2e-5}
 BAR = 1e-4
 
@@ -33,7 +33,7 @@ def side(name):
 
 
 def resized(name, pictures):
-    """The pictures at the size of the network's input."""
+    """The images at the size of the network's input."""
     size = side(name)
     if pictures.shape[1] == size:
         return pictures
@@ -41,13 +41,13 @@ def resized(name, pictures):
 
 
 def pooling(name):
-    """How Keras is asked for what svnet calls the pooled output."""
+    """The arguments with which Keras returns the pooled output of svnet."""
     return None if name.startswith("vgg") else "avg"
 
 
 def random_model(name, top, pictures):
-    """The network with random weights; its batch norms are near the statistics of the pictures, so that signals keep
-    their size, and far enough from them, and from 0 and 1, that every number matters."""
+    """The network with random weights. Its batch norms are near the statistics of the images, so that activations keep
+    their magnitude, but far enough from them, and from 0 and 1, that every parameter changes the result."""
     keras.utils.set_random_seed(7)
     network, _ = NETWORKS[name]
     model = network(weights=None, include_top=top, input_shape=(side(name), side(name), 3), pooling=None if top else pooling(name))
@@ -80,7 +80,7 @@ def largest_error(found, expected):
 
 
 def assert_sensitive(expected):
-    """The pictures differ in their features, or else the comparison would say little."""
+    """Checks that the features of the images differ; otherwise the comparison would mean little."""
     spread = np.linalg.norm(expected - expected.mean(axis=0)) / np.linalg.norm(expected)
     assert spread > 0.02, spread
 

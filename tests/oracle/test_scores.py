@@ -1,4 +1,4 @@
-"""Semantic scores against a plain Monte-Carlo with scikit-learn and other random numbers."""
+"""Compares semantic scores with a plain Monte-Carlo that uses scikit-learn and other random numbers."""
 import numpy as np
 from sklearn.cluster import AgglomerativeClustering
 from sklearn.metrics import fowlkes_mallows_score
@@ -21,7 +21,7 @@ def draw(random, tree):
 
 def test_scores_agree_with_a_plain_simulation(report):
     random = np.random.default_rng(11)
-    # 5 categories; their objects, the objects' poses and the poses' views differ in number.
+    # 5 categories with different numbers of objects, poses and views.
     tree, groups = [], []
     for category in range(5):
         tree.append([])

@@ -1,4 +1,4 @@
-"""Ten training steps against Keras: fresh recordings, replayed by the C++ test program."""
+"""Compares ten training steps with Keras: new recordings, replayed by the C++ test program."""
 import os
 import pathlib
 import subprocess

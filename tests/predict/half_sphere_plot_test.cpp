@@ -19,7 +19,7 @@ Pixel pixel(const Image& image, Index x, Index y) {
 
 }  // namespace
 
-TEST_CASE("poses are where they are seen from above, coloured by their score, the best one ringed") {
+TEST_CASE("poses are drawn as seen from above, coloured by score, with a ring around the best") {
   const std::vector<CameraPose> poses{{0, 45}, {90, 45}, {-180, 0}, {90, 90}};
   const Image image = half_sphere_plot(poses, std::vector<float>{0.5f, 0.9f, 0.1f, 0.5f});
   REQUIRE(image.height == 512);
@@ -34,7 +34,7 @@ TEST_CASE("poses are where they are seen from above, coloured by their score, th
   CHECK(pixel(image, 2, 2) == kWhite);
 }
 
-TEST_CASE("of dots on the same place the best lies on top, equal scores are all the highest") {
+TEST_CASE("of dots at the same place the best is on top; equal scores all have the highest colour") {
   const std::vector<CameraPose> poses{{0, 90}, {90, 90}, {180, 90}};
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.1f, 0.9f, 0.5f}), 256, 256) == kHighest);
   CHECK(pixel(half_sphere_plot(poses, std::vector<float>{0.5f, 0.5f, 0.5f}), 256, 256) == kHighest);

@@ -15,7 +15,7 @@ using namespace svnet;
 
 namespace {
 
-/// Features and scores layer by layer, as the model's file has them, one pose after the other.
+/// Features and scores computed layer by layer from the model's file, one pose at a time.
 Tensor plain_features(const Model& model, const Image& image) {
   Tensor batch = Tensor::empty({1, model.preprocessing.height, model.preprocessing.width, 3});
   prepare(model.preprocessing, image, batch.data<float>());
@@ -37,7 +37,7 @@ std::vector<CameraPose> many_poses() {
 
 }  // namespace
 
-TEST_CASE("a predictor gives the features and scores of its model, as many poses as there are") {
+TEST_CASE("a predictor gives the features and scores of its model, for any number of poses") {
   for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics}) {
     const Model model = small_model(encoding);
     const TemporaryFolder folder;
@@ -54,19 +54,19 @@ TEST_CASE("a predictor gives the features and scores of its model, as many poses
     REQUIRE(scores.size() == poses.size());
     for (std::size_t i = 0; i < poses.size(); ++i)
       CHECK(scores[i] == Approx(plain_score(model, expected, poses[i])).margin(1e-5));
-    CHECK(scores[best_view(scores)] - scores[best_first(scores).back()] > 1e-3);  // poses make a difference
+    CHECK(scores[best_view(scores)] - scores[best_first(scores).back()] > 1e-3);  // scores depend on the pose
     CHECK(predictor.scores(features, {}).empty());
   }
 }
 
-TEST_CASE("a model of all symmetries gives the mean over them, whichever of them the picture is taken in") {
+TEST_CASE("a model of all orientations gives their mean, in whichever orientation the image is") {
   Model model = small_model(AngleEncoding::harmonics);
   const Predictor as_taken(model);
   model.symmetries = kSymmetries;
   const Predictor predictor(model);
   CHECK(predictor.feature_count() == kSymmetries * as_taken.feature_count());
 
-  // The picture at the size of the network, so that turning it comes first or last alike.
+  // The image has the network's size, so that turning and resizing commute.
   const Image picture = small_picture(96, 96);
   const std::vector<float> pixels(picture.rgb.begin(), picture.rgb.end());
   std::vector<float> turned(pixels.size());
@@ -89,7 +89,7 @@ TEST_CASE("a model of all symmetries gives the mean over them, whichever of them
   CHECK(predictor.scores(predictor.embed(picture), std::span(poses).first(1))[0] == scores[0]);
 }
 
-TEST_CASE("poses a whole turn apart have the same score") {
+TEST_CASE("poses a full turn apart have the same score") {
   const Predictor predictor(small_model());
   const Tensor features = predictor.embed(small_picture());
   const std::vector<CameraPose> poses{{315, 45}, {-45, 45}, {675, 45},  {0, 60},
@@ -100,7 +100,7 @@ TEST_CASE("poses a whole turn apart have the same score") {
   CHECK(scores[0] != scores[3]);
 }
 
-TEST_CASE("the best view is the first among equals") {
+TEST_CASE("in a tie the best view is the first one") {
   const std::vector<float> scores{0.25f, 0.75f, 0.5f, 0.75f, 0.25f};
   CHECK(best_view(scores) == 1);
   CHECK(best_first(scores) == std::vector<std::size_t>{1, 3, 2, 0, 4});
@@ -141,7 +141,7 @@ TEST_CASE("features and images that do not fit are refused") {
   features.data<float>()[2] = std::nanf("");
   CHECK_THROWS_WITH(predictor.scores(features, poses), "[predict] feature 2 is nan, not a finite number");
   CHECK_THROWS_WITH(predictor.embed({}), "[predict] the image says 0x0 pixels and holds 0 bytes");
-  // Already at the size of the network's input, where nothing is resized.
+  // Already at the size of the network's input, so nothing is resized.
   CHECK_THROWS_WITH(predictor.embed({96, 96, std::vector<std::uint8_t>(5)}),
                     "[predict] the image says 96x96 pixels and holds 5 bytes");
   CHECK_THROWS_WITH(Predictor(std::filesystem::path("/nonexistent/model")),

@@ -6,7 +6,7 @@ import pytest
 
 @pytest.fixture(autouse=True)
 def interrupts():
-    """Ctrl-C raises KeyboardInterrupt, though a shell that starts the tests in the background has it ignored."""
+    """Makes Ctrl-C raise KeyboardInterrupt. A shell that starts the tests in the background ignores SIGINT."""
     before = signal.signal(signal.SIGINT, signal.default_int_handler)
     yield
     signal.signal(signal.SIGINT, before)
@@ -19,7 +19,7 @@ def random():
 
 @pytest.fixture
 def threads():
-    """svnet.set_threads, put back to one thread afterwards."""
+    """svnet.set_threads; afterwards there is one thread again."""
     import svnet
 
     yield svnet.set_threads

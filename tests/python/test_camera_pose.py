@@ -20,7 +20,7 @@ def test_the_camera_stands_on_the_half_sphere_and_looks_at_the_centre():
             assert pose[:3, :3].T @ pose[:3, :3] == pytest.approx(np.eye(3), abs=1e-12)
             assert np.linalg.det(pose[:3, :3]) == pytest.approx(1, abs=1e-12)
             assert pose[3].tolist() == [0, 0, 0, 1]
-            # The centre is straight ahead.
+            # The centre is on the optical axis.
             assert np.linalg.inv(pose) @ [*centre, 1] == pytest.approx([0, 0, 0.7, 1], abs=1e-12)
 
 

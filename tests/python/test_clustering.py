@@ -7,7 +7,7 @@ import pytest
 
 import svnet
 
-# Two groups of two points and one apart.
+# Two groups of two points, and a single point.
 POINTS = [[0, 0], [10, 0], [0, 1], [10, 2], [50, 50]]
 
 
@@ -22,7 +22,7 @@ LINKAGES = ["ward", "average", "complete", "single"]
 
 
 def plain_agglomeration(points, k, linkage):
-    """Lance and Williams, by the book."""
+    """The formulas of Lance and Williams, without shortcuts."""
     size = {i: 1 for i in range(len(points))}
     apart = {
         (i, j): float(np.linalg.norm(points[i] - points[j])) ** (2 if linkage == "ward" else 1)
@@ -179,7 +179,7 @@ def test_interrupt_ends_kmeans(random):
 @pytest.mark.parametrize("cluster", [svnet.ward, svnet.agglomerative])
 def test_interrupt_after_the_distances_ends_an_agglomeration(cluster, random):
     features = random.normal(size=(4000, 1000))
-    # Refuses within a computation, not after it.
+    # Refuses during a computation, not after it.
     before = signal.signal(signal.SIGALRM, lambda *_: svnet.set_threads(1))
     try:
         signal.setitimer(signal.ITIMER_REAL, 0.02)

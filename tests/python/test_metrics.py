@@ -7,7 +7,7 @@ import svnet
 
 TRUE = [0, 0, 0, 1, 1, 2]
 PRED = [0, 0, 1, 1, 1, 1]
-# Pairs together in truth 3 + 1, in prediction 1 + 6, in both 1 + 1.
+# Pairs in one class: 3 + 1; in one cluster: 1 + 6; in both: 1 + 1.
 
 
 def test_values_by_hand():

@@ -79,7 +79,7 @@ def test_forked_processes_compute(random, threads):
 
 
 class Raising:
-    """Raises the exception whatever it is asked for."""
+    """Raises the exception from every method."""
 
     def __init__(self, exception):
         self.exception = exception
@@ -119,7 +119,7 @@ def test_values_in_messages_are_short():
 
 
 def run(script):
-    """Runs the script in a Python of its own, with numpy as np, svnet, os, signal and threading."""
+    """Runs the script in a new Python process, with numpy as np, svnet, os, signal and threading imported."""
     header = "import os, signal, threading\nimport numpy as np\nimport svnet\n"
     subprocess.run([sys.executable, "-c", header + textwrap.dedent(script)], check=True, timeout=60)
 

@@ -3,14 +3,14 @@ import pytest
 
 import svnet
 
-# 4 categories, 2 objects of each, 1 pose, 3 views of it.
+# 4 categories of 2 objects with 1 pose of 3 views.
 CATEGORY, OBJECT, VIEW = (a.ravel() for a in np.indices((4, 2, 3)))
 POSE = np.zeros_like(OBJECT)
 
 
 @pytest.fixture
 def features(random):
-    """The last view of a pose looks like the next category, the others like their own."""
+    """The last view of each pose looks like the next category; the others look like their own."""
     return 5 * np.eye(16)[(CATEGORY + (VIEW == 2)) % 4] + 0.1 * random.normal(size=(len(CATEGORY), 16))
 
 
@@ -64,7 +64,7 @@ def test_group_numbers_may_have_any_dtype(features):
     found = svnet.semantic_scores(
         features.astype("f4").tolist(), CATEGORY * -1000.0, OBJECT.astype("u1"), POSE.tolist(), problems=200
     )
-    # Categories in another order: other problems, of the same kind.
+    # Other category labels give other problems from the same distribution.
     assert found["count"].sum() == pytest.approx(expected["count"].sum(), rel=0.1)
 
 

@@ -1,4 +1,4 @@
-"""The stubs (__init__.pyi) have the names, the signatures and the defaults of the module."""
+"""Checks that the stubs (__init__.pyi) have the names, signatures and defaults of the module."""
 
 import ast
 import inspect

@@ -33,7 +33,7 @@ struct Points {
 
 using Cluster = std::vector<std::int32_t>;
 
-/// By the definition of the linkage, from the points themselves.
+/// The dissimilarity by the definition of the linkage, from the points.
 double dissimilarity(Linkage linkage, const Points& points, const Cluster& a, const Cluster& b) {
   if (linkage == Linkage::ward) {
     double sum = 0;
@@ -57,7 +57,7 @@ double dissimilarity(Linkage linkage, const Points& points, const Cluster& a, co
   return linkage == Linkage::single ? lowest : highest;
 }
 
-/// The algorithm without any shortcut: of all pairs of clusters the least dissimilar one, until k are left.
+/// The naive algorithm: merges the least dissimilar of all pairs of clusters until k are left.
 std::vector<std::int32_t> naive(Linkage linkage, const Points& points, const std::vector<std::int32_t>& rows, Index k) {
   std::vector<Cluster> clusters;
   std::vector<Cluster> positions;
@@ -83,7 +83,7 @@ std::vector<std::int32_t> naive(Linkage linkage, const Points& points, const std
   std::vector<std::int32_t> labels(rows.size());
   for (std::size_t c = 0; c < clusters.size(); ++c)
     for (auto i : positions[c]) labels[i] = static_cast<std::int32_t>(c);
-  return labels;  // clusters stay in the order of their first points: numbered by first appearance
+  return labels;  // clusters are in the order of their first points
 }
 
 std::vector<std::int32_t> clustered(Linkage linkage, const DistanceMatrix& distances,
@@ -199,22 +199,22 @@ TEST_CASE("average linkage averages distances, not their squares") {
   CHECK(clustered(Linkage::average, distances, {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 0, 1});
 }
 
-TEST_CASE("of equal pairs the one with the lowest clusters is merged") {
+TEST_CASE("in a tie the pair with the lowest clusters is merged") {
   const DistanceMatrix equal = line({0, 1, 2, 3, 4, 5});
   for (Linkage linkage : kLinkages)
     CHECK(clustered(linkage, equal, {0, 1, 2, 3, 4, 5}, 5) == std::vector<std::int32_t>{0, 0, 1, 2, 3, 4});
-  // After {0, 1}: single linkage is tied between {0, 1}-2 and 2-3; the lower cluster goes first.
+  // After {0, 1}: single linkage is tied between {0, 1}-2 and 2-3; the pair with the lower cluster is merged first.
   CHECK(clustered(Linkage::single, equal, {0, 1, 2, 3, 4, 5}, 4) == std::vector<std::int32_t>{0, 0, 0, 1, 2, 3});
   CHECK(clustered(Linkage::complete, equal, {0, 1, 2, 3, 4, 5}, 3) == std::vector<std::int32_t>{0, 0, 1, 1, 2, 2});
-  // Slots hold the positions 5 3 4 0 1 2: {5, 4}, then 3, 2 and 1 join, each time ahead of the equal pair {0, 1}.
+  // Slots hold the positions 5 3 4 0 1 2: {5, 4}, then 3, 2 and 1 join, each time before the equal pair {0, 1}.
   CHECK(clustered(Linkage::single, equal, {5, 3, 4, 0, 1, 2}, 2) == std::vector<std::int32_t>{0, 0, 0, 1, 0, 0});
-  // 1 and 3 are merged first. Then 0 is as near to them as to 2, which was its nearest until then.
+  // 1 and 3 are merged first. Then 0 is as near to them as to 2, its nearest slot so far.
   CHECK(clustered(Linkage::single, line({0, 3, -2, 2}), {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 1, 0});
   const DistanceMatrix same = line({7, 7, 7, 7});
   CHECK(clustered(Linkage::ward, same, {0, 1, 2, 3}, 2) == std::vector<std::int32_t>{0, 0, 0, 1});
 }
 
-TEST_CASE("every instruction set gives the same partitions, ties too, and the same distances but for the last bit") {
+TEST_CASE("every instruction set gives the same partitions, with ties too, and the same distances up to the last bit") {
   const Index n = 70, dimension = 5;
   auto values = random_points(n, dimension, 5, 25);
   for (auto& value : values) value = std::round(2 * value);  // many equal distances
@@ -239,7 +239,7 @@ TEST_CASE("every instruction set gives the same partitions, ties too, and the sa
   cap_instruction_set(sets.front());
 }
 
-TEST_CASE("agglomerative clustering of a triangle does not look at its paddings") {
+TEST_CASE("agglomerative clustering ignores the padding of a triangle") {
   const Index n = 37;
   const DistanceMatrix distances = distances_of(random_points(n, 4, 5, 26), 4);
   std::vector<std::int32_t> labels(n);
@@ -271,7 +271,7 @@ TEST_CASE("linkages have names") {
   CHECK_THROWS_WITH(linkage_named("wart"), Catch::Contains("[linkage] 'wart' is unknown, did you mean 'ward'?"));
 }
 
-TEST_CASE("agglomerative clustering refuses impossible numbers of clusters") {
+TEST_CASE("agglomerative clustering refuses an impossible number of clusters") {
   const DistanceMatrix distances = line({0, 1, 2});
   CHECK_THROWS_WITH(clustered(Linkage::ward, distances, {0, 1, 2}, 0),
                     "[agglomerative] cannot make 0 clusters of 3 points; 1 to 3 are possible");

@@ -1,5 +1,5 @@
 #pragma once
 #include <cstddef>
 
-/// How often operator new was called so far, by any thread of this program.
+/// The number of calls of operator new so far, by all threads of this program.
 std::size_t allocations();

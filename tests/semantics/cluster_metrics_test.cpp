@@ -15,7 +15,7 @@ namespace {
 
 using Values = std::vector<std::int64_t>;
 
-/// Pair by pair, by the definition of PAPER.md section 4.
+/// Counts pair by pair, as PAPER.md section 4 defines it.
 double brute_force_individual(const Values& truth, const Values& predicted, std::size_t i) {
   double tp = 0, fp = 0, fn = 0;
   for (std::size_t j = 0; j < truth.size(); ++j) {
@@ -66,7 +66,7 @@ TEST_CASE("individual Fowlkes-Mallows counts the pairs of each item") {
 TEST_CASE("only items without a true pair are skipped as singletons") {
   const Values truth{0, 0, 1, 2, 2};
   const Values predicted{5, 6, 6, 7, 7};
-  // Item 0 was left alone and item 1 put with a stranger: both missed a partner. Item 2 has none.
+  // Item 0 is alone in its cluster, and item 1 is with an item of another class: both miss a partner. Item 2 has none.
   CHECK(fowlkes_mallows_individual(truth, predicted) == std::vector<double>{0, 0, 0, 1, 1});
   const auto skipped = fowlkes_mallows_individual(truth, predicted, Singletons::skip);
   CHECK(std::isnan(skipped[2]));
@@ -74,7 +74,7 @@ TEST_CASE("only items without a true pair are skipped as singletons") {
   for (std::size_t i : {3, 4}) CHECK(skipped[i] == 1);
 }
 
-TEST_CASE("0/0 counts as 0: nobody has a pair") {
+TEST_CASE("0/0 counts as 0: no item has a pair") {
   const Values apart{0, 1, 2, 3}, together{9, 9, 9, 9};
   CHECK(fowlkes_mallows(apart, apart) == 0);
   CHECK(fowlkes_mallows(apart, together) == 0);
@@ -101,7 +101,7 @@ TEST_CASE("metrics of many labels take little time and memory") {
   CHECK(normalized_mutual_info(apart, apart) == Approx(1).epsilon(1e-12));
 }
 
-TEST_CASE("counting and scoring allocate nothing, and a contingency can be used again") {
+TEST_CASE("counting and scoring allocate nothing, and a contingency can be reused") {
   RandomStream random(42, Stream::shuffle);
   Contingency contingency(50);
   std::vector<double> values(50);

@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-/// fixtures/clustering.txt: what scikit-learn makes of small problems. The script beside it says what the fields are.
+/// fixtures/clustering.txt: results of scikit-learn for small problems. The script next to it describes the fields.
 struct ClusteringFixtures {
   struct Partition {
     std::string linkage;
@@ -42,5 +42,5 @@ struct ClusteringFixtures {
   std::vector<Metrics> metrics;
 };
 
-/// Read once; throws std::runtime_error where the file is missing or broken.
+/// Read once. Throws std::runtime_error if the file is missing or damaged.
 const ClusteringFixtures& clustering_fixtures();

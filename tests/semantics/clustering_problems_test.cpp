@@ -28,7 +28,7 @@ SmallDataset regular(Index categories, Index objects) {
 }
 
 /// The standard score of a chi-square statistic of counts that should be in proportion to the probabilities; those
-/// expected less than 10 times are put together.
+/// expected less than 10 times are merged.
 double chi_square_score(const std::vector<double>& probabilities, const std::vector<double>& counts, double draws) {
   double statistic = 0, cells = 0, rare_expected = 0, rare_counted = 0;
   const auto add = [&](double expected, double counted) {
@@ -91,7 +91,7 @@ TEST_CASE("the probability that a problem contains a view is exact") {
     CHECK(problems.inclusion_probability(v) == Approx(inclusion[v]).epsilon(1e-12));
 }
 
-TEST_CASE("a problem holds distinct objects, one view each, labelled by category in order of first appearance") {
+TEST_CASE("a problem has distinct objects with one view each, labelled by category in order of first appearance") {
   const auto dataset = regular(6, 4);
   const auto problems = problems_of(dataset);
   CHECK(problems.max_items() == 24);
@@ -118,7 +118,7 @@ TEST_CASE("a problem holds distinct objects, one view each, labelled by category
   }
 }
 
-TEST_CASE("options bound the numbers of categories and objects, and exclude categories") {
+TEST_CASE("options limit the number of categories and objects, and exclude categories") {
   const auto dataset = regular(6, 4);
   const auto problems = problems_of(
       dataset,
@@ -145,7 +145,7 @@ TEST_CASE("options bound the numbers of categories and objects, and exclude cate
   }
 }
 
-TEST_CASE("three categories are enough for problems of three") {
+TEST_CASE("three categories suffice for problems of three") {
   const auto problems = problems_of(regular(3, 2), {.min_categories = 3, .max_categories = 3});
   auto problem = problems.new_problem();
   for (int i = 0; i < 20; ++i) {
@@ -155,7 +155,7 @@ TEST_CASE("three categories are enough for problems of three") {
   CHECK_FALSE(problems_of(regular(3, 1)).may_have_partner(0));
 }
 
-TEST_CASE("a problem is known by its seed and number alone, and poses can be drawn without views") {
+TEST_CASE("seed and index determine a problem, and poses can be drawn without views") {
   const auto dataset = regular(5, 3);
   const auto problems = problems_of(dataset);
   auto once = problems.new_problem(), again = problems.new_problem();
@@ -179,7 +179,7 @@ TEST_CASE("a problem is known by its seed and number alone, and poses can be dra
   }
 }
 
-TEST_CASE("views may come in any order and numbers have no meaning but identity") {
+TEST_CASE("views may be in any order, and labels are only compared") {
   const auto dataset = SmallDataset::uneven();
   SmallDataset reversed = dataset;
   for (auto* numbers : {&reversed.category, &reversed.object, &reversed.pose})
@@ -202,7 +202,7 @@ TEST_CASE("drawing allocates nothing") {
   CHECK(allocations() == before);
 }
 
-TEST_CASE("problems refuse what cannot be drawn") {
+TEST_CASE("problems refuse options that cannot be drawn") {
   const auto five = regular(5, 4);
   CHECK_THROWS_WITH(
       problems_of(five, {.excluded_categories = {0, 1, 4}}),

@@ -32,12 +32,12 @@ void check_against_reference(const std::vector<float>& points, Index dimension) 
       symmetric &= distances(i, j) == distances(j, i);
     }
   CHECK(symmetric);
-  CHECK(worst < 1.01 * 0x1p-24);  // half a unit in the last place, and a little for what was rounded before
+  CHECK(worst < 1.01 * 0x1p-24);  // half a unit in the last place, and 1 % for earlier rounding
 }
 
 }  // namespace
 
-TEST_CASE("squared distances are those of long double, at odd sizes and across tiles") {
+TEST_CASE("squared distances equal those in long double, at odd sizes and across tiles") {
   for (auto [n, dimension] : {std::pair<Index, Index>{1, 1}, {2, 3}, {127, 5}, {129, 257}, {300, 7}, {40, 700}})
     check_against_reference(random_points(n, dimension, 4, n), dimension);
 }
@@ -48,7 +48,7 @@ TEST_CASE("squared distances survive an offset far larger than the differences")
   check_against_reference(points, 30);
 }
 
-TEST_CASE("rows that nearly coincide keep their digits and equal rows are at distance 0") {
+TEST_CASE("rows that nearly coincide keep their digits, and equal rows have distance 0") {
   const Index dimension = 300;
   auto points = random_points(50, dimension, 3, 6);
   RandomStream random(9, Stream::shuffle);
@@ -81,7 +81,7 @@ TEST_CASE("features in double keep differences that float32 cannot hold") {
   CHECK(distances(1, 2) == Approx(9e-18).epsilon(1e-6));
 }
 
-TEST_CASE("rows of a distance matrix start on 64-byte borders, small or large") {
+TEST_CASE("rows of a distance matrix are 64-byte aligned, small or large") {
   for (Index n : {1, 15, 17, 900}) {
     DistanceMatrix distances(n);
     for (Index i = 0; i < n; ++i) REQUIRE(reinterpret_cast<std::uintptr_t>(distances.row(i)) % 64 == 0);
@@ -89,7 +89,7 @@ TEST_CASE("rows of a distance matrix start on 64-byte borders, small or large") 
   }
 }
 
-TEST_CASE("squared distances name the row that is to blame") {
+TEST_CASE("squared distances name the wrong row") {
   auto points = random_points(300, 4, 2, 8);
   points[257 * 4 + 2] = std::numeric_limits<float>::quiet_NaN();
   CHECK_THROWS_WITH(distances_of(points, 4), "[distances] feature 2 of row 257 is nan; every feature must be finite");
@@ -104,7 +104,7 @@ TEST_CASE("squared distances name the row that is to blame") {
   CHECK_THROWS_WITH(DistanceMatrix(-1), "[distances] -1 rows");
 }
 
-TEST_CASE("features that float32 cannot tell apart when squared are refused, equal ones are not") {
+TEST_CASE("features whose squared differences vanish in float32 are refused, equal ones are not") {
   const auto tiny = [](float x) { return std::vector<float>{0, 0, x, 0, 10 * x, 0}; };
   CHECK_THAT(distances_of(tiny(1e-14f), 2)(2, 1), Catch::WithinRel(8.1e-27f, 1e-5f));
   CHECK_THROWS_WITH(distances_of(tiny(1e-20f), 2), Catch::StartsWith("[distances] no row is farther than ") &&

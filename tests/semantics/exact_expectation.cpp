@@ -30,7 +30,7 @@ SmallDataset SmallDataset::uneven() {
 
 namespace {
 
-/// One way to fill a part of a problem.
+/// One choice for a part of a problem.
 struct Choice {
   std::vector<std::int32_t> rows;
   double probability;

@@ -6,15 +6,16 @@
 #include "semantics/clustering_problems.h"
 #include "semantics/distances.h"
 
-/// A data set small enough to write down all its clustering problems.
+/// A dataset that is small enough to enumerate all its clustering problems.
 struct SmallDataset {
   std::vector<std::int64_t> category, object, pose;  // per view
 
-  /// `views` views of one pose.
+  /// Adds a pose of an object with `views` views.
   void add(std::int64_t of_category, std::int64_t of_object, std::int64_t of_pose, svnet::Index views);
   svnet::Index views() const { return static_cast<svnet::Index>(category.size()); }
 
-  /// Four categories with 2, 2, 3 and 1 objects, poses and views unevenly spread; 6644 problems of 3 or 4 categories.
+  /// Four categories of 2, 2, 3 and 1 objects, with uneven numbers of poses and views. It has 6644 problems of 3 or 4
+  /// categories.
   static SmallDataset uneven();
 };
 

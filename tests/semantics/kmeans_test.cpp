@@ -15,7 +15,7 @@ namespace {
 
 RandomStream stream(std::uint64_t index) { return {31, Stream::kmeans, index}; }
 
-/// The sum of squared distances to the means of the clusters, from the points themselves.
+/// The sum of squared distances to the means of the clusters, computed from the points.
 double inertia_of(const std::vector<float>& points, Index dimension, const std::vector<std::int32_t>& labels) {
   double inertia = 0;
   for (std::int32_t label : std::set<std::int32_t>(labels.begin(), labels.end()))
@@ -35,7 +35,7 @@ double inertia_of(const std::vector<float>& points, Index dimension, const std::
 
 }  // namespace
 
-TEST_CASE("a k-means run from given centres is scikit-learn's") {
+TEST_CASE("a k-means run from given centres equals scikit-learn's") {
   Index compared = 0;
   for (const auto& points : clustering_fixtures().points) {
     const DistanceMatrix distances = distances_of(points.features, points.dimension);
@@ -72,7 +72,7 @@ TEST_CASE("the best of many k-means runs has scikit-learn's inertia") {
   CHECK(compared >= 5);
 }
 
-TEST_CASE("k-means starts as well, on average, as scikit-learn's") {
+TEST_CASE("the start of k-means is on average as good as scikit-learn's") {
   Index compared = 0;
   for (const auto& points : clustering_fixtures().points)
     for (const auto& single : points.single) {
@@ -96,7 +96,7 @@ TEST_CASE("k-means starts as well, on average, as scikit-learn's") {
   CHECK(compared >= 1);
 }
 
-TEST_CASE("more k-means runs are never worse, and a stream decides the result") {
+TEST_CASE("more k-means runs are never worse, and the random stream determines the result") {
   const auto points = random_points(50, 5, 8, 32);
   const DistanceMatrix distances = distances_of(points, 5);
   const auto rows = all_rows(50);
@@ -117,7 +117,7 @@ TEST_CASE("more k-means runs are never worse, and a stream decides the result") 
   CHECK(inertias.size() > 3);
 }
 
-TEST_CASE("k-means copes with as many clusters as points, one cluster, and points that coincide") {
+TEST_CASE("k-means handles as many clusters as points, one cluster, and points that coincide") {
   const auto points = random_points(12, 2, 3, 33);
   const DistanceMatrix distances = distances_of(points, 2);
   std::vector<std::int32_t> labels(12);
@@ -137,7 +137,7 @@ TEST_CASE("k-means copes with as many clusters as points, one cluster, and point
   CHECK(labels == std::vector<std::int32_t>{0, 0, 0, 1, 1, 1});
 }
 
-TEST_CASE("k-means from a triangle does not look at its paddings") {
+TEST_CASE("k-means ignores the padding of a triangle") {
   const Index n = 37;
   const DistanceMatrix distances = distances_of(random_points(n, 4, 5, 35), 4);
   std::vector<std::int32_t> expected(n), labels(n);
@@ -163,7 +163,7 @@ TEST_CASE("k-means allocates nothing") {
   CHECK(allocations() == before);
 }
 
-TEST_CASE("k-means refuses what cannot be done") {
+TEST_CASE("k-means refuses impossible arguments") {
   const DistanceMatrix distances = distances_of({0, 1, 2}, 1);
   std::vector<std::int32_t> labels(3);
   KMeans kmeans(3, 2, 1);

@@ -14,7 +14,7 @@ using namespace svnet;
 
 namespace {
 
-/// Views of one pose each in no order of categories.
+/// Views of one pose each, not sorted by category.
 struct Scattered {
   std::vector<std::int64_t> category, object, pose;
   DistanceMatrix distances;
@@ -31,7 +31,7 @@ struct Scattered {
 
 }  // namespace
 
-TEST_CASE("a batch holds the problems that are drawn one by one, in ascending order, with their distances") {
+TEST_CASE("a batch has the problems that are drawn one by one, in ascending order, with their distances") {
   const Scattered views(2000, 20, 6);
   const ClusteringProblems problems(views.category, views.object, views.pose);
   auto problem = problems.new_problem();
@@ -62,7 +62,7 @@ TEST_CASE("a batch holds the problems that are drawn one by one, in ascending or
   }
 }
 
-TEST_CASE("a batch of large problems holds as many as there is room for") {
+TEST_CASE("a batch of large problems has as many as fit into memory") {
   const Scattered views(6000, 40, 150);
   const ClusteringProblems problems(views.category, views.object, views.pose, {.min_categories = 30});
   ProblemBatch batch(views.distances, problems, Parallel::shared());
@@ -77,7 +77,7 @@ TEST_CASE("a batch of large problems holds as many as there is room for") {
   CHECK(batches > 1);
 }
 
-TEST_CASE("rows of a triangle are whole lines, one after the other") {
+TEST_CASE("rows of a triangle are whole cache lines without gaps") {
   Index offset = 0;
   for (Index i = 0; i < 100; ++i) {
     CHECK(LowerTriangle::row_offset(i) == offset);
@@ -86,7 +86,7 @@ TEST_CASE("rows of a triangle are whole lines, one after the other") {
   }
 }
 
-TEST_CASE("scores from pair counts are those of the contingency") {
+TEST_CASE("scores from pair counts equal those of the contingency") {
   RandomStream random(64, Stream::shuffle);
   PairScores scores(9);
   for (int repeat = 0; repeat < 300; ++repeat) {

@@ -5,7 +5,7 @@
 #include "base/random.h"
 #include "semantics/distances.h"
 
-/// n points (n, dimension) around `groups` centres; dimensions and groups chosen freely, ties improbable.
+/// Points (n, dimension) around `groups` centres; ties are improbable.
 inline std::vector<float> random_points(svnet::Index n, svnet::Index dimension, svnet::Index groups,
                                         std::uint64_t seed) {
   svnet::RandomStream random(seed, svnet::Stream::shuffle);

@@ -27,7 +27,7 @@ ScoreSums::View sums_of(const std::vector<double>& scores) {
 
 }  // namespace
 
-TEST_CASE("means and standard errors are those of the scores") {
+TEST_CASE("means and standard errors equal those of the scores") {
   RandomStream random(61, Stream::shuffle);
   std::vector<double> values(1000);
   double mean = 0, squares = 0;
@@ -49,7 +49,7 @@ TEST_CASE("means and standard errors are those of the scores") {
   for (double value : {scores.individual[3], scores.global[3], scores.standard_error[3]}) CHECK(std::isnan(value));
 }
 
-TEST_CASE("sums of parts are the sums of the whole, and taking leaves nothing") {
+TEST_CASE("sums of parts add up to the sums of the whole, and added sums are zero afterwards") {
   ScoreSums whole(2), left(2), right(2);
   whole.views[1] = sums_of({0.1, 0.2, 0.3, 0.7});
   left.views[1] = sums_of({0.7, 0.1});
@@ -64,7 +64,7 @@ TEST_CASE("sums of parts are the sums of the whole, and taking leaves nothing") 
   CHECK_THROWS_WITH(left.add_and_clear(other), "[scores] sums of 3 views cannot be added to those of 2");
 }
 
-TEST_CASE("rank stability is the agreement of the halves on pairs of views") {
+TEST_CASE("rank stability is the agreement of both halves on pairs of views") {
   ScoreSums sums(6);
   const auto set = [&](std::size_t view, double even, double odd) {
     auto& v = sums.views[view];

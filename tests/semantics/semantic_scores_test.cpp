@@ -13,7 +13,7 @@ using namespace svnet;
 
 namespace {
 
-/// The uneven data set with features that a clustering gets right for some views and wrong for others.
+/// The uneven dataset, with features that a clustering groups correctly for some views and wrongly for others.
 struct Fixture {
   SmallDataset dataset = SmallDataset::uneven();
   std::vector<float> features = clustered_features(dataset);
@@ -61,7 +61,7 @@ TEST_CASE("Monte-Carlo scores are within four standard errors of the exact expec
       const double count = static_cast<double>(scores.count[v]);
       CHECK(std::abs(count / 200000 - exact.inclusion[v]) <
             4 * std::sqrt(exact.inclusion[v] * (1 - exact.inclusion[v]) / 200000));
-      // The problems' scores lie in [0, 1]: their standard deviation is at most a half.
+      // Scores are in [0, 1], so their standard deviation is at most 0.5.
       CHECK(std::abs(scores.global[v] - exact.global[v]) < 4 * 0.5 / std::sqrt(count));
       const bool alone = f.dataset.category[v] == 4;  // the only object of its category
       if (alone && singletons == Singletons::skip) {
@@ -76,7 +76,7 @@ TEST_CASE("Monte-Carlo scores are within four standard errors of the exact expec
   }
 }
 
-TEST_CASE("standard errors cover the exact expectations as often as they promise") {
+TEST_CASE("standard errors cover the exact expectations as often as they should") {
   const Fixture f;
   const auto problems = f.problems();
   const ExactScores exact = exact_scores(f.distances, all_problems(f.dataset, 3), Singletons::zero);
@@ -91,7 +91,7 @@ TEST_CASE("standard errors cover the exact expectations as often as they promise
   for (Index v = 0; v < f.dataset.views(); ++v) {
     if (f.dataset.category[v] == 4) continue;  // always 0
     INFO("view " << v);
-    REQUIRE(std::abs(exact.individual[v] - 0.5) < 0.45);  // else the mean of so few problems is not normal
+    REQUIRE(std::abs(exact.individual[v] - 0.5) < 0.45);  // otherwise the mean of few problems is not normal
     CHECK(covered[v] / static_cast<double>(seeds) >= 0.90);
     CHECK(covered[v] / static_cast<double>(seeds) <= 0.99);
   }
@@ -113,7 +113,7 @@ TEST_CASE("scores have the same bits for any number of threads") {
     }
 }
 
-TEST_CASE("scores stop when every view has its samples, at a block border") {
+TEST_CASE("scores stop once every view has its samples, at the end of a block") {
   const Fixture f;
   const auto problems = f.problems({.excluded_categories = {4}});
   const auto scores = semantic_scores(f.distances, problems, {.min_samples = 20000, .seed = 74}, Parallel::shared());
@@ -130,7 +130,7 @@ TEST_CASE("scores stop when every view has its samples, at a block border") {
     }
   }
   CHECK(fewest >= 20000);
-  // One block earlier there were too few.
+  // One block earlier there are too few.
   const auto before =
       semantic_scores(f.distances, problems, {.problems = scores.problems - 16384, .seed = 74}, Parallel::shared());
   for (Index v = 0; v < f.dataset.views(); ++v)
@@ -171,7 +171,7 @@ TEST_CASE("scores continue from saved sums, and ranges of problems add up") {
     CHECK(resumed == whole);
   }
 
-  // Between borders the rules are not looked at.
+  // The rules are not checked inside a block.
   continue_scores(f.distances, problems, {.min_samples = 1, .seed = 76}, pool, single_process, resumed);
   CHECK(resumed.problems == 49152);
 
@@ -214,7 +214,7 @@ TEST_CASE("solving problems allocates nothing per problem") {
   }
 }
 
-TEST_CASE("progress tells how far the scores are") {
+TEST_CASE("progress reports how many problems are solved") {
   const Fixture f;
   Index last_done = 0, last_total = 0;
   const Messages messages{.line = {}, .progress = [&](std::string_view task, Index done, Index total, double) {
@@ -226,7 +226,7 @@ TEST_CASE("progress tells how far the scores are") {
   semantic_scores(f.distances, f.problems(), {.problems = 30000}, Parallel::shared(), messages);
   CHECK(last_done == 30000);
   CHECK(last_total == 30000);
-  // With fewer samples than views are unlucky by, the expected number is too small now and then.
+  // With few samples, the expected number of problems is sometimes too small.
   Index ends = 0;
   const Messages counting{
       .line = {}, .progress = [&](std::string_view, Index done, Index total, double) { ends += done >= total; }};
@@ -234,7 +234,7 @@ TEST_CASE("progress tells how far the scores are") {
   CHECK(ends <= 1);
 }
 
-TEST_CASE("scores refuse options that cannot be followed") {
+TEST_CASE("scores refuse options that cannot be fulfilled") {
   const Fixture f;
   const auto problems = f.problems();
   const auto scores = [&](const ScoreOptions& options) {

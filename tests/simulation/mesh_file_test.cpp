@@ -32,14 +32,14 @@ std::string bytes(const std::vector<Number>& numbers) {
   return result;
 }
 
-/// A piece of a binary glTF file: its length, its kind, its contents filled up to a multiple of 4.
+/// A chunk of a binary glTF file: its length, its type, and its contents padded to a multiple of 4.
 std::string glb_chunk(const char* kind, std::string contents, char filler) {
   while (contents.size() % 4 != 0) contents += filler;
   return bytes<std::uint32_t>({static_cast<std::uint32_t>(contents.size())}) + std::string(kind, 4) + contents;
 }
 
 /// A binary glTF file (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): a triangle whose material takes its
-/// colour from `image`, a JSON object; `picture` is buffer view 3.
+/// colour from `image`, a JSON object; `image` is buffer view 3.
 std::string glb_of(const std::string& image, const std::string& picture) {
   const std::string points = bytes<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}), uv = bytes<float>({0, 0, 1, 0, 0, 1}),
                     corners = bytes<std::uint16_t>({0, 1, 2, 0});
@@ -65,12 +65,12 @@ std::string glb_of(const std::string& image, const std::string& picture) {
   return "glTF" + bytes<std::uint32_t>({2, static_cast<std::uint32_t>(12 + chunks.size())}) + chunks;
 }
 
-/// The picture is embedded.
+/// The image is embedded.
 std::string glb(const std::string& picture, const std::string& mime_type) {
   return glb_of(R"({"bufferView": 3, "mimeType": ")" + mime_type + R"("})", picture);
 }
 
-/// The PNG file of a picture with a red pixel above a green one.
+/// The PNG file of an image with a red pixel above a green one.
 std::string small_png(const TemporaryFolder& folder) {
   write_png(folder.path() / "small.png", {2, 1, {255, 0, 0, 0, 255, 0}});
   return file_contents(folder.path() / "small.png");
@@ -140,7 +140,7 @@ TEST_CASE("the name of a GLB's texture is an encoded URI") {
   CHECK(read_mesh(folder.write("a.glb", glb_of(R"({"uri": "my%20paint%25.png"})", "unused"))).pictures.size() == 1);
 }
 
-TEST_CASE("meshes that cannot be read get one line that names them") {
+TEST_CASE("meshes that cannot be read are named in one line") {
   const TemporaryFolder folder;
   const auto in = [&](const char* name) { return (folder.path() / name).string(); };
   CHECK(refusal(folder.path() / "none.obj") ==
@@ -163,7 +163,7 @@ TEST_CASE("meshes that cannot be read get one line that names them") {
              Catch::StartsWith(in("f.ply") + ": "));
 }
 
-TEST_CASE("a picture inside a GLB is its texture, the right way up") {
+TEST_CASE("an image inside a GLB is its texture, the right way up") {
   const TemporaryFolder folder;
   const Mesh mesh = read_mesh(folder.write("a.glb", glb(small_png(folder), "image/png")));
   REQUIRE(mesh.triangles.size() == 1);
@@ -180,14 +180,14 @@ TEST_CASE("a picture inside a GLB is its texture, the right way up") {
   }
 }
 
-TEST_CASE("damaged meshes and textures get one line that says where and what") {
+TEST_CASE("damaged meshes and textures are reported in one line that says where and what") {
   const TemporaryFolder folder;
   const std::string png = small_png(folder), whole = glb(png, "image/png"), ply = kPly, stl = kStl;
   std::string long_view = whole;
   long_view.replace(long_view.find("\"count\": 3"), 10, "\"count\": 9");
   std::string stranger = whole;
   stranger.replace(stranger.find("\"material\": 0"), 13, "\"material\": 7");
-  // Name, contents, what the line must have.
+  // Name, contents, and a part of the message.
   const std::vector<std::tuple<const char*, std::string, const char*>> cases{
       {"empty.obj", "", ""},
       {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n", ""},
@@ -236,7 +236,7 @@ std::string packed_ply() {
 
 }  // namespace
 
-TEST_CASE("a PLY file that is cut off is refused where it ends") {
+TEST_CASE("a truncated PLY file is refused with the place of its end") {
   const TemporaryFolder folder;
   const std::string text = replaced(std::string(kPly) + "3 2 1 0\n", "face 1", "face 2"), packed = packed_ply();
   const std::string path = (folder.path() / "a.ply").string();

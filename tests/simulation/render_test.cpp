@@ -5,7 +5,6 @@
 #include "base/parallel.h"
 #include "simulation/catalogue.h"
 #include "simulation/collection.h"
-#include "simulation/picture_table.h"
 #include "simulation/resting.h"
 #include "simulation/sculptor.h"
 #include "simulation/texture.h"
@@ -30,7 +29,7 @@ double area(const Outline& points, const std::vector<std::array<std::uint32_t, 3
   return sum;
 }
 
-/// ∫ dV of the divergence theorem; positive where the triangles face outwards.
+/// The volume by the divergence theorem; positive if the triangles face outwards.
 double volume(const Mesh& mesh) {
   double sum = 0;
   for (const Mesh::Triangle& triangle : mesh.triangles)
@@ -86,7 +85,7 @@ TEST_CASE("the centre of mass and the hull are those of the solid") {
   const Mesh mesh = sculptor.take();
   CHECK((centre_of_mass(mesh) - Eigen::Vector3d(0.1, 0, -0.05)).norm() < 1e-5);
 
-  // Whichever way its faces look. A fin beside a cube has much area and little volume.
+  // For any orientation of the faces. A fin next to a cube has a large area and a small volume.
   sculptor.use({});
   sculptor.box(50, 50, 50);
   sculptor.box(200, 2, 50).move(100, 0, 0);
@@ -190,12 +189,12 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   CHECK(sensor_picture(shot, {3, 7}).rgb.rgb == picture.rgb.rgb);
 }
 
-TEST_CASE("sRGB goes there and back") {
+TEST_CASE("conversion to sRGB and back is the identity") {
   for (int level = 0; level < 256; ++level)
     CHECK(srgb_from_linear(linear_from_srgb(static_cast<std::uint8_t>(level))) == Approx(level).margin(0.3));
 }
 
-TEST_CASE("nothing of a localised object is cut off in its views, and about one of 22 views is missing") {
+TEST_CASE("views show a localised object completely, and about one of 22 views is missing") {
   Index views = 0, poses = 0;
   for (const char* category : {"hammer", "mug", "plate", "key"}) {
     const Mesh mesh = catalogue_object(category, 1, 1);
@@ -227,25 +226,4 @@ TEST_CASE("nothing of a localised object is cut off in its views, and about one 
   const double mean = static_cast<double>(views) / static_cast<double>(poses);
   CHECK(mean > 20.3);  // the paper's mean is 21.1
   CHECK(mean < 21.7);
-}
-
-TEST_CASE("a contact sheet shows each picture in its cell, beside the label of its line") {
-  const Image red{2, 2, {255, 0, 0, 255, 0, 0, 255, 0, 0, 255, 0, 0}};
-  const Image wide{1, 2, {0, 0, 255, 0, 0, 255}};
-  const Image sheet = picture_table({{"a", {red, wide}}, {"longer", {red}}}, 40);
-  CHECK(sheet.height == 2 * 42 + 2);
-  const auto pixel = [&](Index y, Index from_right) {
-    const auto at = static_cast<std::size_t>(3 * (y * sheet.width + sheet.width - from_right));
-    return std::vector<int>{sheet.rgb[at], sheet.rgb[at + 1], sheet.rgb[at + 2]};
-  };
-  CHECK(pixel(20, 60) == std::vector<int>{255, 0, 0});
-  CHECK(pixel(20, 20) == std::vector<int>{0, 0, 255});
-  CHECK(pixel(5, 20) == std::vector<int>{255, 255, 255});  // above the wide picture, which keeps its proportions
-  CHECK(pixel(62, 60) == std::vector<int>{255, 0, 0});
-  CHECK(pixel(62, 20) == std::vector<int>{255, 255, 255});
-  int dark = 0;
-  for (Index y = 0; y < sheet.height; ++y)
-    for (Index x = 0; x + 86 < sheet.width; ++x)
-      dark += sheet.rgb[static_cast<std::size_t>(3 * (y * sheet.width + x))] < 64;
-  CHECK(dark > 20);  // the labels
 }

@@ -1,5 +1,5 @@
-// What users get wrong, and what the commands say to it: exit 1, one line that says what, where and what to do, and
-// nothing left behind.
+// Mistakes of users: the command exits with 1, prints one line that says what, where and what to do, and
+// leaves no file.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstring>
@@ -16,7 +16,7 @@ namespace {
 
 struct Row {
   const char* name;
-  /// Shell commands that make the bad input, in the workplace, from the good ones.
+  /// Shell commands that make the bad input from the good one, in the workplace.
   const char* make;
   const char* command;
   const char* fragment;
@@ -34,7 +34,7 @@ struct Row {
 #define SET(assignment) "svnet-train config.yaml --output run --set " assignment
 
 const Row kRows[] = {
-    // pictures
+    // images
     {"missing picture", "", PREDICT "none.png", "none.png: no such file"},
     {"a folder as picture", "", PREDICT "data", "data: is a folder, expected a picture (PNG, JPEG or WebP)"},
     {"truncated JPEG", "head -c -40 $PICTURES/rgb.jpg >bad.jpg", PREDICT "bad.jpg",
@@ -169,7 +169,7 @@ const Row kRows[] = {
      "1 categories take part, at least 2 are needed; --exclude fewer"},
     {"more categories than there are", "", SCORE "features.h5 --min-categories 9",
      "--min-categories: 9, but 4 categories take part"},
-    // outputs that would take the place of something
+    // outputs that would overwrite something
     {"scores over their features", "cp features.h5 bad.h5",
      "svnet-score --dataset data --problems 50 --features bad.h5 --output bad.h5",
      "bad.h5: cannot be written: the command needs this file for something else; give another name"},
@@ -196,7 +196,7 @@ const Row kRows[] = {
     {"no folder for temporary files", "", "TMPDIR=/nonexistent svnet-train config.yaml --dry-run",
      "/nonexistent: is no folder for temporary files; set TMPDIR to one"},
     {"a dataset where one is to be made", "", "svnet-render --output data", "data: exists already"},
-    // surroundings
+    // environment
     {"unknown instruction set", "", "SVNET_MAX_ISA=AVX22 " PREDICT "top.png", "this machine has no 'AVX22'"},
     {"no number of threads", "", "SVNET_THREADS=many " PREDICT "top.png",
      "[SVNET_THREADS] 'many' is not a whole number"},
@@ -210,7 +210,7 @@ const Row kRows[] = {
      "c_interface_probe bad.safetensors none", "bad.safetensors: "},
 };
 
-/// Runs a row and takes away what it made.
+/// Runs a row and removes what it wrote.
 void check_row(const Workplace& place, const Row& row) {
   INFO(row.name << ": " << row.command);
   const auto before = place.entries();
@@ -224,7 +224,7 @@ void check_row(const Workplace& place, const Row& row) {
   const std::vector<std::string> lines = lines_of(ran.err);
   REQUIRE(!lines.empty());
   CHECK_THAT(lines.back(), Catch::Contains(row.fragment));
-  // One line of error; what the log says of the progress before it is no error.
+  // One line of error; the lines of progress before it are not errors.
   for (std::size_t i = 0; i + 1 < lines.size(); ++i) {
     CHECK_THAT(lines[i], !Catch::StartsWith("svnet-"));
     CHECK_THAT(lines[i],
@@ -232,14 +232,14 @@ void check_row(const Workplace& place, const Row& row) {
   }
   CHECK_THAT(ran.err, !Catch::Contains("what():") && !Catch::Contains("filesystem error"));
   auto after = place.entries();
-  for (const char* log : {"run", "run/log.txt", "bad/log.txt"})  // of the attempt, with the error in it
+  for (const char* log : {"run", "run/log.txt", "bad/log.txt"})  // the log of the failed run contains the error
     if (made.count(log) == 0) after.erase(log);
   CHECK(after == made);
   for (const std::string& entry : place.entries())
     if (before.count(entry) == 0) fs::remove_all(place / entry);
 }
 
-/// The tensors of the good model, to be written again with something changed.
+/// The tensors of the good model, to be changed and written again.
 struct OpenModel {
   explicit OpenModel(const Workplace& place) : file(place / "model.safetensors"), tensors(file.tensors()) {}
   SafetensorsFile file;
@@ -252,19 +252,19 @@ void check_model(const Workplace& place, const char* name, const char* fragment)
 
 }  // namespace
 
-TEST_CASE("bad input: every row is one line of error, exit 1, and leaves nothing behind") {
+TEST_CASE("bad input: every row prints one line of error, exits with 1 and leaves no file") {
   const Workplace place;
   for (const Row& row : kRows) check_row(place, row);
 }
 
-TEST_CASE("bad input: weights with numbers or layers in the wrong place") {
+TEST_CASE("bad input: weights with values or layers in the wrong place") {
   const Workplace place;
   write_tiny_weights(place / "swapped.h5", true);
   check_row(place,
             {"two layers swapped", "", FEATURES_WITH("swapped.h5"),
              "is 'block2_sepconv2_bn' where the model has 'block2_sepconv1_bn'; the layers of the file are not in "
              "the order of the model"});
-  // The first number of a kernel that is found by its bytes.
+  // The first weight of a kernel, found by its bytes.
   std::string bytes = file_contents(place / "weights/tiny_xception.h5");
   const auto kernel =
       Hdf5File::open(place / "weights/tiny_xception.h5").read<float>("block1_conv1/block1_conv1/kernel").values;
@@ -277,7 +277,7 @@ TEST_CASE("bad input: weights with numbers or layers in the wrong place") {
                     "nan.h5: dataset 'block1_conv1/block1_conv1/kernel': value 0 is not finite"});
 }
 
-TEST_CASE("bad input: models whose tensors are not what they should be") {
+TEST_CASE("bad input: models with wrong tensors") {
   const Workplace place;
   const auto write = [&](const OpenModel& model) {
     write_safetensors(place / "changed.safetensors", model.tensors, model.file.metadata());
@@ -315,7 +315,7 @@ TEST_CASE("bad input: models whose tensors are not what they should be") {
     check_model(place, "model of a newer version", "format 99");
   }
   {
-    // Two tensors of the same size with the same place; the header stays as long as it is.
+    // Two tensors of the same size at the same offset; the length of the header does not change.
     std::string bytes = file_contents(place / "model.safetensors");
     const std::string beta = "\"data_offsets\":[2592,2688]", gamma = "\"data_offsets\":[2688,2784]";
     REQUIRE(bytes.find(beta) != std::string::npos);
@@ -326,7 +326,7 @@ TEST_CASE("bad input: models whose tensors are not what they should be") {
   }
 }
 
-// A disk that is full in truth, where the system lets a user mount one.
+// A disk that is really full, if the system lets a user mount one.
 TEST_CASE("bad input: a full disk") {
   const Workplace place;
   if (place.run("unshare -rm true").status != 0) {

@@ -1,8 +1,7 @@
-// A program that does what its argument says, for command_test.cpp to watch from outside.
+// A program that does what its argument says. command_test.cpp runs it.
 
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iostream>
@@ -16,7 +15,7 @@ using namespace svnet;
 
 namespace {
 
-/// A file that is there as long as this object.
+/// A file that exists as long as this object.
 struct TemporaryFile {
   explicit TemporaryFile(std::string name) : path(std::move(name)) { std::ofstream(path) << "half written"; }
   ~TemporaryFile() { std::filesystem::remove(path); }
@@ -59,9 +58,6 @@ void work(const std::string& what, const std::string& file, Console& console) {
   } else if (what == "hangup") {
     std::raise(SIGHUP);
     progress("after it", 1, 1, 0);
-  } else if (what == "openblas") {
-    const char* core = std::getenv("OPENBLAS_CORETYPE");
-    console.result(core != nullptr ? core : "none");
   } else if (what == "hang") {
     console.result("ready");
     std::cout.flush();
@@ -74,7 +70,7 @@ void work(const std::string& what, const std::string& file, Console& console) {
 int main(int argc, char** argv) {
   Command command("svnet-probe", "Does what it is told.", "svnet-probe result\nsvnet-probe log log.txt");
   std::string what, file;
-  command.app().add_option("WHAT", what, "What to do")->required();
-  command.app().add_option("FILE", file, "A file");
+  command.add("WHAT", what, "What to do").required();
+  command.add("FILE", file, "A file");
   return command.run(argc, argv, [&](Console& console) { work(what, file, console); });
 }

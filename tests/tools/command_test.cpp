@@ -35,9 +35,9 @@ class Child {
     if (pid_ < 0) throw std::runtime_error("no child");
     if (pid_ == 0) {
       if (!terminal) ::dup2(ends[1], STDOUT_FILENO), ::dup2(ends[1], STDERR_FILENO);
-      ::setenv("TERM", "xterm", 1);
       for (const int number : {SIGINT, SIGTERM, SIGHUP}) std::signal(number, SIG_DFL);
-      ::execl(COMMAND_PROBE, COMMAND_PROBE, what.c_str(), file.empty() ? nullptr : file.c_str(), nullptr);
+      ::execl("/usr/bin/env", "env", "TERM=xterm", COMMAND_PROBE, what.c_str(), file.empty() ? nullptr : file.c_str(),
+              nullptr);
       ::_exit(127);
     }
     if (!terminal) ::close(ends[1]), output_ = ends[0];
@@ -49,7 +49,7 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
-  /// Everything up to and with `text`, or to the end.
+  /// Returns the output up to and including `text`, or to its end.
   std::string read_to(const std::string& text) {
     std::string seen;
     char c = 0;
@@ -57,7 +57,7 @@ class Child {
     return seen;
   }
   void signal(int number) const { ::kill(pid_, number); }
-  /// The exit status, or minus the signal that ended it.
+  /// Waits for the end. Returns the exit status, or minus the signal that ended the child.
   int wait() {
     int status = 0;
     ::waitpid(pid_, &status, 0);
@@ -158,12 +158,12 @@ TEST_CASE("a result that cannot be written is a failure") {
   }
 }
 
-TEST_CASE("the option --threads goes before SVNET_THREADS") {
+TEST_CASE("the option --threads overrides SVNET_THREADS") {
   CHECK(run("threads --threads 3", "SVNET_THREADS=2").out == "3\n");
   CHECK(run("threads", "SVNET_THREADS=2").out == "2\n");
 }
 
-TEST_CASE("progress elsewhere than on a terminal is plain lines, one at the end") {
+TEST_CASE("progress that is not on a terminal is plain lines, one at the end") {
   const Ran ran = run("progress");
   CHECK(ran.status == 0);
   CHECK(ran.err == "in between\nscores: 1000 in 8.0 s\nsearch: 3 in 1.0 s\n");
@@ -203,7 +203,7 @@ TEST_CASE("a log file gets every line with its time, quiet or not, and is append
              Catch::Contains("run2/log.txt: cannot open the log file"));
 }
 
-TEST_CASE("SIGINT, SIGTERM and SIGHUP unwind: temporaries are gone, exit 130") {
+TEST_CASE("SIGINT, SIGTERM and SIGHUP unwind: temporary files are removed, exit 130") {
   for (const int number : {SIGINT, SIGTERM, SIGHUP}) {
     const TemporaryFolder folder;
     const std::string file = folder.path() / "half";
@@ -218,7 +218,7 @@ TEST_CASE("SIGINT, SIGTERM and SIGHUP unwind: temporaries are gone, exit 130") {
   }
 }
 
-TEST_CASE("a signal that the command was started to ignore stays ignored, as nohup wants it") {
+TEST_CASE("a signal that was ignored at the start stays ignored, as nohup needs it") {
   const Ran ran = run("result", "trap '' HUP INT TERM;");
   CHECK(ran.status == 0);
   const TemporaryFolder folder;
@@ -227,18 +227,11 @@ TEST_CASE("a signal that the command was started to ignore stays ignored, as noh
         0);
 }
 
-TEST_CASE("SVNET_MAX_ISA holds for OpenBLAS too") {
-  const std::string unset = "env -u OPENBLAS_CORETYPE";  // where the tests run it may be set
-  CHECK(run("openblas", unset + " SVNET_MAX_ISA=SCALAR").out == "Prescott\n");
-  CHECK(run("openblas", "SVNET_MAX_ISA=SCALAR OPENBLAS_CORETYPE=Nehalem").out == "Nehalem\n");
-  CHECK(run("openblas", unset).out == "none\n");
-}
-
-TEST_CASE("the second Ctrl-C ends a command that does not look") {
+TEST_CASE("the second Ctrl-C ends a command that does not check for the first") {
   Child child("hang", "", false);
   child.read_to("ready\n");
   child.signal(SIGINT);
-  // The first is remembered by a handler that runs at once; wait until it has.
+  // Wait until the handler of the first signal has run.
   std::this_thread::sleep_for(std::chrono::milliseconds(200));
   child.signal(SIGINT);
   CHECK(child.wait() == -SIGINT);
@@ -258,7 +251,7 @@ TEST_CASE("progress texts") {
   for (int columns = 0; columns < 80; ++columns) {
     const std::string bar = progress_bar(state, columns);
     CHECK(static_cast<int>(bar.size()) <= std::max(columns - 1, 0));
-    CHECK((bar.empty() || (bar.back() & 0xC0) != 0xC0));  // no half of a character at the end
+    CHECK((bar.empty() || (bar.back() & 0xC0) != 0xC0));  // no incomplete character at the end
   }
   CHECK_FALSE(has_control_characters(progress_bar(state, 80)));
   CHECK(printable("a\tb\x7f\x1b\r\n") == "a b??  ");

@@ -15,7 +15,7 @@ using namespace svnet;
 
 namespace {
 
-/// Of the largest value: networks of a dozen layers in float32, whose sums are taken in another order.
+/// Relative to the largest value: float32 sums of a dozen layers, taken in another order.
 constexpr double kTolerance = 1e-4;
 
 /// The largest difference, relative to the largest value.
@@ -62,7 +62,7 @@ Results results(const Workplace& place, const std::string& instruction_set) {
 
 }  // namespace
 
-TEST_CASE("features in bf16 are near those in f32, say so and have another fingerprint") {
+TEST_CASE("features in bf16 are near those in f32, are marked as bf16 and have another fingerprint") {
   if (!kernels::machine_has_bf16()) {
     WARN("this processor has no AVX512-BF16: nothing is tested");
     return;
@@ -84,11 +84,33 @@ TEST_CASE("features in bf16 are near those in f32, say so and have another finge
   CHECK(features("SVNET_PRECISION=bf16 ", " --precision f32").values == plain.values);
 }
 
-TEST_CASE("SVNET_MAX_ISA: svnet-info says what is in force") {
+TEST_CASE("SVNET_MAX_ISA: svnet-info prints the instruction set in use") {
   const Workplace place;
   for (const std::string& set : instruction_sets())
     CHECK_THAT(place.output_of("SVNET_MAX_ISA=" + set + " svnet-info"), Catch::Contains("\nkernels: " + set + " "));
   CHECK_THAT(place.output_of("svnet-info"), Catch::Contains("\nkernels: " + instruction_sets().front() + " "));
+}
+
+TEST_CASE("svnet-info names the kernels of OpenBLAS, which OPENBLAS_CORETYPE chooses and SVNET_MAX_ISA does not") {
+  const Workplace place;
+  const auto openblas_line = [&](const std::string& variables) {
+    const std::string text = place.output_of("env -u OPENBLAS_CORETYPE " + variables + " svnet-info");
+    const auto begin = text.find("matrix products of OpenBLAS: ");
+    REQUIRE(begin != std::string::npos);
+    return text.substr(begin, text.find('\n', begin) - begin);
+  };
+  CHECK_THAT(openblas_line("OPENBLAS_CORETYPE=Prescott"), Catch::Contains(": Prescott "));
+  CHECK(openblas_line("SVNET_MAX_ISA=" + instruction_sets().back()) == openblas_line(""));
+}
+
+TEST_CASE("wrong words in the environment are errors") {
+  const Workplace place;
+  const auto error_of = [&](const std::string& variable) {
+    return place.run(variable + " svnet-predict model.safetensors --image top.png").err;
+  };
+  CHECK(error_of("SVNET_PRECISION=half") == "svnet-predict: [SVNET_PRECISION] 'half' is neither f32 nor bf16\n");
+  CHECK(error_of("SVNET_CONVOLUTION=fast") ==
+        "svnet-predict: [SVNET_CONVOLUTION] 'fast' is neither direct nor winograd\n");
 }
 
 TEST_CASE("SVNET_MAX_ISA: all instruction sets agree to 1e-4") {

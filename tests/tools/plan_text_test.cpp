@@ -74,7 +74,7 @@ TEST_CASE("the plan of a model has its backbone and its head") {
   CHECK_THROWS_WITH(model_plan(folder.path() / "none.safetensors", 1), Catch::Contains("none.safetensors: "));
 }
 
-TEST_CASE("a plan stops at the layer asked for, one of the top too") {
+TEST_CASE("a plan ends at the given layer, also if it is part of the top") {
   CHECK_THAT(lines_of(backbone_plan("mobilenet_v2", "block_1_expand_relu", 1))[0],
              Catch::Contains("to block_1_expand_relu"));
   CHECK_THAT(backbone_plan("mobilenet_v2", "predictions", 1), Catch::Contains("\npredictions "));

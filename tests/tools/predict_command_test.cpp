@@ -13,7 +13,7 @@ using namespace svnet;
 
 namespace {
 
-/// A folder with a model and a picture, and the command run in it.
+/// A folder with a model and an image, and the command run in it.
 class Workplace {
  public:
   Workplace() {
@@ -62,7 +62,7 @@ TEST_CASE("svnet-predict prints the paper's grid, best first") {
   }
 }
 
-TEST_CASE("svnet-predict takes candidates from a file and draws them") {
+TEST_CASE("svnet-predict reads candidates from a file and draws them") {
   const Workplace place;
   place.folder.write("poses.csv", "theta,phi\n10,50\n200.5,70\n-90,0\n");
   const Ran ran = place.run("model.safetensors --image top.png --poses poses.csv --plot plot.png");

@@ -1,4 +1,4 @@
-// What the commands print where no terminal is: plain lines, and no control character.
+// What the commands print without a terminal: plain lines, no control characters.
 #include <algorithm>
 #include <catch2/catch.hpp>
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr const char* kTrain = "svnet-train config.yaml --threads 1 --set sv_net.width=300";
 
-/// How often `part` stands in `text`.
+/// The number of occurrences of `part` in `text`.
 int occurrences(const std::string& text, const std::string& part) {
   int count = 0;
   for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
@@ -23,7 +23,7 @@ bool has_more_than_sse4() {
   return more;
 }
 
-/// Runs it as so many processes, or alone where there are none, and requires exit 0.
+/// Runs the command as `ranks` processes (0: without mpirun) and requires exit 0.
 std::string progress_of(const Workplace& place, int ranks, const std::string& command) {
   const Ran ran = place.run(ranks == 0 ? command : with_ranks(ranks, command));
   INFO(command << "\n" << ran.err);
@@ -35,7 +35,7 @@ std::string progress_of(const Workplace& place, int ranks, const std::string& co
 
 TEST_CASE("one, two and three processes extract the same features") {
   if (!can_run_ranks()) return;
-  const Workplace place;  // 32 pictures: two batches, and a process without any
+  const Workplace place;  // 32 images: two batches, so that one process has none
   for (const int ranks : {1, 2, 3}) {
     INFO(ranks << " processes");
     progress_of(place, ranks,
@@ -59,7 +59,7 @@ TEST_CASE("one, two and three processes train the same model") {
     CHECK(occurrences(said, "epoch 1/") == 1);
     for (const char* file : {"features-tiny_xception.h5", "scores.h5", "checkpoint-last.safetensors",
                              "checkpoint-best.safetensors", "metrics.csv", "model.safetensors"}) {
-      if (!std::filesystem::exists(place / "run0" / file)) continue;  // fine-tuning the scores' backbone needs fewer
+      if (!std::filesystem::exists(place / "run0" / file)) continue;  // fine-tuning writes fewer files
       INFO(file);
       CHECK(file_contents(place / folder / file) == file_contents(place / "run0" / file));
     }
@@ -67,7 +67,7 @@ TEST_CASE("one, two and three processes train the same model") {
   }
 }
 
-TEST_CASE("processes go on together with what a run folder holds") {
+TEST_CASE("several processes resume a run folder") {
   if (!can_run_ranks()) return;
   const Workplace place;
   progress_of(place, 0, std::string(kTrain) + " --output whole");
@@ -78,7 +78,7 @@ TEST_CASE("processes go on together with what a run folder holds") {
   CHECK(file_contents(place / "run/model.safetensors") == file_contents(place / "whole/model.safetensors"));
 }
 
-TEST_CASE("an error of all processes is said once") {
+TEST_CASE("an error of all processes is printed once") {
   if (!can_run_ranks()) return;
   const Workplace place;
   const Ran ran = place.run(with_ranks(3, std::string(kTrain) + " --set dataset.root=nowhere"));
@@ -90,7 +90,7 @@ TEST_CASE("an error of all processes is said once") {
   CHECK_THAT(usage.err, Catch::Contains("svnet-train: CONFIG is required"));
 }
 
-TEST_CASE("an error of one process is said by it and ends all") {
+TEST_CASE("an error of one process is printed by it and ends all") {
   if (!can_run_ranks()) return;
   const Workplace place;
   const std::string train = std::string(kTrain) + " --set training.epochs=1000000 --output run";
@@ -100,7 +100,7 @@ TEST_CASE("an error of one process is said by it and ends all") {
   CHECK_THAT(ran.err, Catch::Contains("nowhere: no such folder"));
 }
 
-TEST_CASE("processes that come to different parameters are told so") {
+TEST_CASE("processes with different parameters are an error") {
   if (!can_run_ranks() || !has_more_than_sse4()) return;
   const Workplace place;
   const std::string train = std::string(kTrain) + " --quiet --output run";
@@ -110,7 +110,7 @@ TEST_CASE("processes that come to different parameters are told so") {
                                       "on processors of one kind"));
 }
 
-TEST_CASE("processes keep to an instruction set") {
+TEST_CASE("processes use the instruction set of SVNET_MAX_ISA") {
   if (!can_run_ranks() || !has_more_than_sse4()) return;
   const Workplace place;
   progress_of(place, 2, std::string(kTrain) + " --output run");

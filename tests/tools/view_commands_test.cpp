@@ -48,7 +48,7 @@ TEST_CASE("svnet-render writes a dataset, the same for any number of threads") {
                            "_extra/overview_camera.json", "_extra/view_camera.json", "_extra/contact_sheet.png"})
     CHECK(files.count(name) == 1);
   CHECK(read_image(folder.path() / "one/mug/1/1/90_90.png").width == 32);
-  CHECK(read_image(folder.path() / "one/_extra/contact_sheet.png").height == 2 * 98 + 2);  // a line for each category
+  CHECK(read_image(folder.path() / "one/_extra/contact_sheet.png").height == 2 * 98 + 2);  // one row per category
 
   const Ran again = run(folder, std::string(kRender) + "--output one");
   CHECK(again.status == 1);
@@ -92,7 +92,7 @@ TEST_CASE("svnet-render leaves out a pose that cannot be collected, and says so"
   CHECK_FALSE(std::filesystem::exists(folder.path() / "e"));
 }
 
-TEST_CASE("svnet-render takes meshes of one's own") {
+TEST_CASE("svnet-render reads the user's meshes") {
   const TemporaryFolder folder;
   folder.write("meshes/box/brick.obj", box(80, 60, 50));
   REQUIRE(run(folder, SVNET_RENDER " --quiet --output d --meshes meshes --unit 0.001 --poses 1 --size 32").status == 0);
@@ -110,7 +110,7 @@ TEST_CASE("svnet-render takes meshes of one's own") {
   CHECK_THAT(run(folder, SVNET_RENDER " --quiet --output e --meshes none").err, Catch::Contains("none: "));
 }
 
-TEST_CASE("svnet-render says which objects it cannot take") {
+TEST_CASE("svnet-render says which objects it cannot use") {
   const TemporaryFolder folder;
   folder.write("meshes/box/brick.obj", box(80, 60, 50));
   folder.write("meshes/textures/wood.txt", "");
@@ -148,7 +148,7 @@ TEST_CASE("svnet-render says which objects it cannot take") {
                                                 "the object 'brick'; rename one of them\n"));
 }
 
-TEST_CASE("svnet-render takes no number out of range") {
+TEST_CASE("svnet-render refuses numbers out of range") {
   const TemporaryFolder folder;
   for (const auto& [option, problem] :
        {std::pair("--seed -1", "--seed: Value -1 not in range 0 to 9007199254740992"),
@@ -162,7 +162,7 @@ TEST_CASE("svnet-render takes no number out of range") {
   }
 }
 
-TEST_CASE("svnet-views localises an object and says where to see it from") {
+TEST_CASE("svnet-views localises an object and prints camera poses") {
   const TemporaryFolder folder;
   REQUIRE(run(folder, std::string(kRender) + "--output d").status == 0);
   const std::string extra = "d/_extra/mug/1/1/";
@@ -177,7 +177,7 @@ TEST_CASE("svnet-views localises an object and says where to see it from") {
   CHECK(read_image(folder.path() / "v.png").width == 512);
   for (const char* step : {"difference", "foreground", "contour", "height"})
     CHECK(read_image(folder.path() / "steps" / (std::string(step) + ".png")).width == 640);
-  // The pictures of the steps take no input's place.
+  // The images of the steps never overwrite an input.
   std::filesystem::copy_file(folder.path() / (extra + "overview.png"), folder.path() / "contour.png");
   CHECK(run(folder, SVNET_VIEWS " d/_extra/overview_camera.json --background " + extra + "overview_background.png " +
                         extra + "overview_background_depth.png --current contour.png " + extra +

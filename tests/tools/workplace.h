@@ -7,18 +7,18 @@
 
 namespace svnet {
 
-/// A folder with whole inputs for every command, made once per process in a few hundred milliseconds:
+/// A folder with complete inputs for every command, made once per process in a few hundred milliseconds:
 ///   data/            write_small_dataset: categories ball, cone, cube, ring, 2 objects of each, 4 views of each
-///   weights/         tiny_xception.h5 in Keras' legacy layout, random numbers
-///   config.yaml      data, weights and all sizes small; run folder by --output
+///   weights/         tiny_xception.h5 in Keras' legacy layout, random weights
+///   config.yaml      uses data and weights; all sizes are small; --output gives the run folder
 ///   features.h5, scores.h5, model.safetensors, top.png, poses.csv
 class Workplace {
  public:
   Workplace();
 
-  /// Runs shell commands in the folder, svnet's programs on the PATH.
+  /// Runs shell commands in the folder, with svnet's programs on the PATH.
   Ran run(const std::string& command) const;
-  /// Runs them and requires exit 0 and nothing on stderr.
+  /// Runs shell commands and requires exit 0 and an empty stderr.
   std::string output_of(const std::string& command) const;
 
   std::filesystem::path operator/(const std::string& name) const { return folder_.path() / name; }
@@ -30,11 +30,11 @@ class Workplace {
   TemporaryFolder folder_;
 };
 
-/// Writes tiny_xception with random numbers as Keras' legacy layout, layers in Keras' order. With `swapped` two layers
-/// of the same shapes change places.
+/// Writes tiny_xception with random weights in Keras' legacy layout and order. `swapped`: exchange two layers
+/// of the same shapes.
 void write_tiny_weights(const std::filesystem::path& path, bool swapped = false);
 
-/// The lines of a text, without their ends.
+/// The lines of a text, without line breaks.
 std::vector<std::string> lines_of(const std::string& text);
 
 }  // namespace svnet

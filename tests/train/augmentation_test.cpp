@@ -10,7 +10,7 @@ namespace {
 constexpr Augmentation kNothing{
     .zoom = 0, .shift = 0, .turn_deg = 0, .flip = 0, .brightness = 0, .contrast = 0, .colour = 0, .noise = 0};
 
-/// Grey levels that tell every pixel apart.
+/// An image whose pixels all have different grey levels.
 Image ramp() {
   Image image{5, 7, {}};
   for (int i = 0; i < 5 * 7 * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(40 + i));
@@ -28,7 +28,7 @@ int at(const Image& image, Index y, Index x, Index c) {
 
 }  // namespace
 
-TEST_CASE("a picture that is not to be changed is not, and the stream alone decides how one is") {
+TEST_CASE("without augmentation an image does not change; with it, the random stream determines the change") {
   const Image image = ramp();
   CHECK(changed(image, kNothing, 1).rgb == image.rgb);
   const Image once = changed(image, {}, 1), again = changed(image, {}, 1), other = changed(image, {}, 2);
@@ -39,7 +39,7 @@ TEST_CASE("a picture that is not to be changed is not, and the stream alone deci
   CHECK(once.rgb != other.rgb);
 }
 
-TEST_CASE("a flip changes left and right") {
+TEST_CASE("a flip exchanges left and right") {
   Augmentation how = kNothing;
   how.flip = 1;
   const Image image = ramp(), flipped = changed(image, how, 1);
@@ -48,8 +48,8 @@ TEST_CASE("a flip changes left and right") {
       for (Index c = 0; c < 3; ++c) CHECK(at(flipped, y, x, c) == at(image, y, 6 - x, c));
 }
 
-TEST_CASE("each change stays within its range and reaches far into it") {
-  // On a picture of one grey level only the tone and the noise can be seen.
+TEST_CASE("each change stays in its range and uses most of it") {
+  // On an image of one grey level only tone and noise are visible.
   const Image grey{8, 8, std::vector<std::uint8_t>(192, 100)};
   const auto range = [&](const Augmentation& how) {
     int least = 255, most = 0;
@@ -82,7 +82,7 @@ TEST_CASE("each change stays within its range and reaches far into it") {
   CHECK(range(how) == std::pair(100, 100));
 }
 
-TEST_CASE("a turn is about the middle, and a shift moves it") {
+TEST_CASE("a rotation is about the centre, and a shift moves it") {
   Image image{9, 9, std::vector<std::uint8_t>(243, 0)};
   for (std::size_t c = 0; c < 3; ++c) image.rgb[(4 * 9 + 4) * 3 + c] = 255;
   Augmentation how = kNothing;

@@ -1,23 +1,26 @@
-#include "train/config/config.h"
-
 #include <algorithm>
+#include <array>
 #include <catch2/catch.hpp>
+#include <set>
 
 #include "base/error.h"
 #include "temporary_folder.h"
+#include "train/config/config_file.h"
+#include "train/config/fingerprint.h"
+#include "train/config/pipeline_name.h"
 #include "train/config/strict_yaml.h"
 
 using namespace svnet;
 
 namespace {
 
-const std::string kBase = "dataset: {root: data}\nscores: {problems: 10}\n";  // the least that is valid, two lines
+const std::string kBase = "dataset: {root: data}\nscores: {problems: 10}\n";  // the shortest valid one
 
 Config parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_config(text, "c.yaml", "/work/configs", overrides);
 }
 
-/// The message of the error that reading `text` gives; empty where it is read.
+/// The error message of reading `text`; empty if it succeeds.
 std::string error_of(const std::string& text, const std::vector<std::string>& overrides = {}) {
   try {
     parse(text, overrides);
@@ -121,7 +124,7 @@ TEST_CASE("every error of a key names file, line and key") {
         "c.yaml:5: dataset.held_out[2]: 'car' is listed twice");
 }
 
-TEST_CASE("what concerns several keys is checked when all are known") {
+TEST_CASE("rules about several keys are checked after all keys are read") {
   CHECK(error_of("scores: {problems: 1}") == "c.yaml: dataset.root: required, name the folder of the images");
   CHECK(error_of("scores: {problems: 1}\ndataset: {root: ''}") ==
         "c.yaml:2: dataset.root: required, name the folder of the images");
@@ -135,7 +138,7 @@ TEST_CASE("what concerns several keys is checked when all are known") {
   CHECK(parse("dataset: {root: d}", {"scores.target_error=0.01"}).scores.target_error == 0.01);
 }
 
-TEST_CASE("what is not the YAML that is wanted says the line") {
+TEST_CASE("wrong YAML is refused with its line") {
   CHECK(error_of("seed: 1\ndataset: {root: [}\n") == "c.yaml:2: illegal flow end (column 18)");
   CHECK(error_of("seed: 1\n\tdataset: 3\n").starts_with("c.yaml:2: "));
   CHECK(error_of("seed: 1\n'open") == "c.yaml:2: illegal EOF in scalar (column 6)");
@@ -212,7 +215,7 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   CHECK(again.scores.singletons == Singletons::skip);
 }
 
-TEST_CASE("the tables are of the pipeline of the scores where none is named") {
+TEST_CASE("the evaluation uses the pipeline of the scores if none is named") {
   CHECK(parse("dataset: {root: data}\nscores: {backbone: mobilenet, clustering: single, problems: 1}\n")
             .evaluation.pipelines == std::vector<std::string>{"mobilenet_single"});
 }
@@ -222,7 +225,7 @@ TEST_CASE("every key can be overridden by its own written value, and its default
     INFO(key.name);
     CHECK_FALSE(key.help.empty());
     const std::string error = error_of(kBase, {key.name + "=" + key.default_value});
-    // The two that have no valid default.
+    // The two keys without a valid default.
     if (key.name == "dataset.root")
       CHECK(error == "--set dataset.root: required, name the folder of the images");
     else
@@ -233,11 +236,65 @@ TEST_CASE("every key can be overridden by its own written value, and its default
   }
 }
 
+namespace {
+
+/// A valid value of the key that is not its default, as an override.
+std::string another_value(const ConfigKey& key) {
+  if (key.accepts.starts_with("a whole number")) return std::to_string(std::stoll(key.default_value) + 5);
+  if (key.accepts.starts_with("a number")) return "0.5";
+  if (key.accepts.starts_with("one of")) return key.accepts.substr(key.accepts.rfind(' ') + 1);
+  if (key.accepts.starts_with("a list")) return "[other_kmeans]";
+  return "other";
+}
+
+/// The fingerprints of scores, model and evaluation, from features of given fingerprints.
+std::array<std::string, 3> fingerprints(const Config& config, const std::string& of_views = "views",
+                                        const std::string& of_top_views = "top views") {
+  const std::string scores = scores_fingerprint(of_views, config);
+  const std::string model = model_fingerprint(of_top_views, scores, config);
+  return {scores, model, stage_fingerprint(Stage::evaluation, std::array{scores, model}, config)};
+}
+
+}  // namespace
+
+TEST_CASE("a key changes the fingerprint of its stage, those of later stages, and none of earlier ones") {
+  const std::string pipelines = "evaluation.pipelines=[xception_ward]";
+  const auto before = fingerprints(parse(kBase, {pipelines}));
+  for (const ConfigKey& key : config_keys()) {
+    INFO(key.name << ", of stage " << name_of(key.stage));
+    const std::string value = another_value(key);
+    REQUIRE(value != key.default_value);
+    const auto after = fingerprints(parse(kBase, {pipelines, key.name + "=" + value}));
+    const Stage stages[] = {Stage::scores, Stage::model, Stage::evaluation};
+    for (std::size_t i = 0; i < 3; ++i) {
+      INFO("fingerprint of " << name_of(stages[i]));
+      // Keys of the features count through the fingerprints of the features, which stay as they are here.
+      CHECK((after[i] != before[i]) == (key.stage != Stage::features && key.stage <= stages[i]));
+    }
+  }
+}
+
+TEST_CASE("fingerprints change with those of the features, and with every name of an enum") {
+  const Config c = parse(kBase);
+  const auto before = fingerprints(c), views = fingerprints(c, "others"),
+             top_views = fingerprints(c, "views", "others");
+  for (std::size_t i = 0; i < 3; ++i) CHECK(views[i] != before[i]);
+  CHECK(top_views[0] == before[0]);
+  CHECK(top_views[1] != before[1]);
+  std::set<std::string> different;
+  for (const std::string& name : names_of<Clustering>())
+    different.insert(fingerprints(parse(kBase, {"scores.clustering=" + name}))[0]);
+  CHECK(different.size() == 5);
+  // Lists are told apart from their items.
+  CHECK(fingerprints(parse(kBase, {"dataset.held_out=[a, b]"}))[0] !=
+        fingerprints(parse(kBase, {"dataset.held_out=['a, b']"}))[0]);
+}
+
 TEST_CASE("configs/paper.yaml documents every key with the paper's values") {
   const std::filesystem::path folder = std::filesystem::path(SVNET_SOURCE_DIR) / "configs";
   const Config c = read_config(folder / "paper.yaml");
   const std::string text = file_contents(folder / "paper.yaml"), documented = documented_yaml(c, folder);
-  // The file is a heading of its own and then what the table of keys says: run this test to see what to write.
+  // The file is a heading and then documented_yaml(): this test prints what to write.
   CAPTURE(documented);
   CHECK(text.ends_with("\n\n" + documented));
   CHECK(c.dataset.held_out == std::vector<std::string>{"comb", "hammer", "knife", "toothbrush", "wrench"});

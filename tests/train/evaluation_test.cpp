@@ -9,8 +9,8 @@ using namespace svnet;
 
 namespace {
 
-/// Three categories of two objects with one pose of two views: view 0 of a pose lies at its category's place, view 1,
-/// the top view, anywhere.
+/// Three categories of two objects with one pose of two views. The features of view 0 of a pose are at the place of its
+/// category; those of view 1, the top view, are anywhere.
 struct Scene {
   ViewDataset dataset;
   std::vector<float> features;
@@ -35,7 +35,7 @@ struct Scene {
 
 }  // namespace
 
-TEST_CASE("a selector that picks the telling views clusters perfectly, and tables do not depend on threads") {
+TEST_CASE("a selector of the informative views clusters perfectly, and tables do not depend on threads") {
   const Scene scene;
   Parallel two(2), five(5);
   const auto distances = squared_distances(scene.features.data(), 12, 1, two);

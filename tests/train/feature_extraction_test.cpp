@@ -48,7 +48,7 @@ void write_legacy(const std::filesystem::path& path, const Graph& graph, const P
 
 }  // namespace
 
-TEST_CASE("a damaged picture of a later batch is named, after the batches before it") {
+TEST_CASE("a damaged image of a later batch is named, after the batches before it") {
   const TemporaryFolder folder;
   write_small_dataset(folder.path());
   const ViewDataset dataset = read_view_dataset(folder.path());
@@ -64,7 +64,7 @@ TEST_CASE("a damaged picture of a later batch is named, after the batches before
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("features do not depend on the pictures beside them") {
+TEST_CASE("features do not depend on the other images of the batch") {
   const TemporaryFolder folder;
   write_small_dataset(folder.path());
   ViewDataset dataset = read_view_dataset(folder.path());
@@ -78,7 +78,7 @@ TEST_CASE("features do not depend on the pictures beside them") {
           together.values[static_cast<std::size_t>(17 * together.dimension + i)]);
 }
 
-TEST_CASE("of a top that the output does not need shapes are checked, numbers not read") {
+TEST_CASE("if the output does not need the top, its shapes are checked, but its weights are not read") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "w.h5";
   const BackboneKind& kind = backbone_kind("mobilenet");

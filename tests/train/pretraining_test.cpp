@@ -50,7 +50,7 @@ TEST_CASE("pretraining learns, and gives the same bits for any number of threads
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("what was pretrained tells objects apart that it has not seen") {
+TEST_CASE("a pretrained backbone distinguishes new objects") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path());
   PretrainingOptions options = small_options();
@@ -58,7 +58,7 @@ TEST_CASE("what was pretrained tells objects apart that it has not seen") {
   options.epochs = 40;
   options.augmentation = {.zoom = 0, .shift = 0, .turn_deg = 0, .brightness = 0, .contrast = 0, .colour = 0};
   const Pretrained result = pretrain(read_view_dataset(temporary.path()), options, {});
-  CHECK(result.validation_accuracy >= 0.5);  // chance is 0.25, and half the views hardly tell
+  CHECK(result.validation_accuracy >= 0.5);  // chance is 0.25, and half of the views are hardly informative
   options.validation_objects = 0;
   options.epochs = 1;
   const Pretrained whole = pretrain(read_view_dataset(temporary.path()), options, {});
@@ -96,7 +96,7 @@ TEST_CASE("pretraining says what is wrong with its data") {
   options.epochs = 20;
   CHECK_THROWS_WITH(attempt(options), Catch::StartsWith("[pretraining] the loss is not finite at step ") &&
                                           Catch::EndsWith("; a smaller learning rate may help"));
-  // In the last step, which no loss follows.
+  // In the last step, after which no loss is computed.
   options.batch_size = 4096;
   options.epochs = 1;
   options.learning_rate = 1e39;

@@ -1,15 +1,15 @@
 // Replays ten training steps that Keras recorded (tests/oracle/make_training_fixtures.py): from the same initial
-// weights and data, every loss must be Keras' own. SVNET_TRAINING_FIXTURES names another folder with such recordings.
+// weights and data, every loss must equal Keras'. SVNET_TRAINING_FIXTURES names another folder with such recordings.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <functional>
 #include <iostream>
 #include <optional>
 
+#include "base/environment.h"
 #include "io/tensors/safetensors.h"
 #include "models/sv_net.h"
 #include "models/trained_graph.h"
@@ -37,7 +37,7 @@ class Recording {
 
   Tensor tensor(const std::string& name) const { return Tensor::from(shape(name), numbers<float>(name, "F32")); }
 
-  /// Batch `batch` of a tensor (B, 8, …): F32, or U8 that stands for numbers from 0 to 1.
+  /// Batch `batch` of a tensor (B, 8, …): F32, or U8 for values from 0 to 1.
   Tensor batch(const std::string& name, Index batch) const {
     std::vector<float> values;
     if (file_.at(name).dtype == "U8")
@@ -69,8 +69,8 @@ class Recording {
 
  private:
   static std::filesystem::path folder() {
-    const char* given = std::getenv("SVNET_TRAINING_FIXTURES");
-    return given != nullptr ? given : SVNET_SOURCE_DIR "/tests/fixtures/training";
+    const std::string given = environment_variable("SVNET_TRAINING_FIXTURES");
+    return !given.empty() ? given : SVNET_SOURCE_DIR "/tests/fixtures/training";
   }
 
   template <class T>
@@ -89,7 +89,7 @@ using MakeOptimizer = std::function<std::unique_ptr<Optimizer>(std::vector<Tenso
 using Inputs = std::function<std::vector<Tensor>(Index batch)>;
 using Loss = std::function<Tensor(const Tensor& output, Index batch)>;
 
-/// `results`: what the names of the recorded results begin with.
+/// `results`: the prefix of the names of the recorded results.
 void replay(const std::string& name, const Recording& recording, const std::string& results, const Graph& graph,
             Parameters parameters, Index batches, const MakeOptimizer& make_optimizer, const Inputs& inputs,
             const Loss& loss) {

@@ -118,7 +118,7 @@ TEST_CASE("a run gives the same bits for any number of threads, and its stages a
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("what changes runs again, and only what follows from it") {
+TEST_CASE("a changed stage runs again, with the stages that depend on it and no others") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -135,13 +135,13 @@ TEST_CASE("what changes runs again, and only what follows from it") {
   CHECK(after[5] != before[5]);
 }
 
-TEST_CASE("an interrupted training goes on to the same bits") {
+TEST_CASE("an interrupted training resumes to the same bits") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   const Config config = small_config(temporary.path() / "data");
   const auto expected = results(config, temporary.path() / "whole", {});
   struct Stop {};
-  // The line of an epoch comes before its checkpoint is written: the third epoch is lost and done again.
+  // The line of an epoch comes before its checkpoint is written: the third epoch is lost and repeated.
   const Messages stopping{.line =
                               [](std::string_view line) {
                                 if (line.starts_with("epoch 3/")) throw Stop{};
@@ -183,7 +183,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   CHECK(results(config, temporary.path() / "resumed", log.messages) == expected);
   CHECK(log.has("training: goes on after epoch 1"));
 
-  // Frozen layers keep their bits, trained ones do not.
+  // Frozen layers keep their bits, trained layers do not.
   const Model model = read_model(temporary.path() / "run1/model.safetensors");
   const Backbone untrained = backbone_from_folder("tiny_xception", "", {}, 3).backbone;
   const auto above = untrained.graph().ancestors({untrained.graph().find("block4_act")});
@@ -197,7 +197,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
     }
   }
 
-  // The trained backbone's own features are what evaluation and prediction go by.
+  // Evaluation and prediction use the features of the trained backbone.
   const ViewDataset dataset = read_view_dataset(config.dataset.root);
   Stages run(config, dataset, temporary.path() / "run1", {});
   const std::vector<double> scores = run.predicted_scores(model);
@@ -215,7 +215,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   }
 }
 
-TEST_CASE("top images in every orientation are eight times the examples, the same for any number of threads") {
+TEST_CASE("top images in every orientation give eight times the examples, the same for any number of threads") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -231,7 +231,7 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   const int as_taken = examples("plain");
   CHECK(as_taken > 0);
   config.training.augmentation = TopViewAugmentation::turns;
-  CHECK(examples("plain") == 8 * as_taken);  // and the model of "plain" is not taken for its own
+  CHECK(examples("plain") == 8 * as_taken);  // and the model of "plain" is not reused
 
   const int threads_before = Parallel::shared().threads();
   std::vector<std::string> expected;
@@ -244,7 +244,7 @@ TEST_CASE("top images in every orientation are eight times the examples, the sam
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("scores of all orientations are those of the predictor, and a model of their own") {
+TEST_CASE("scores of all orientations equal those of the predictor, with a model of their own") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -273,7 +273,7 @@ TEST_CASE("scores of all orientations are those of the predictor, and a model of
   }
 }
 
-TEST_CASE("inputs that are kept in every orientation are those made when asked for") {
+TEST_CASE("inputs cached in every orientation equal those made on request") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   const ViewDataset dataset = read_view_dataset(temporary.path() / "data");
@@ -297,7 +297,7 @@ TEST_CASE("inputs that are kept in every orientation are those made when asked f
   CHECK_FALSE(std::ranges::equal(row(0), row(1)));
 }
 
-TEST_CASE("a damaged stage is made again") {
+TEST_CASE("a stage with a damaged file is repeated") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   const Config config = small_config(temporary.path() / "data");
@@ -323,7 +323,7 @@ TEST_CASE("scores leave out held-out categories") {
   }
 }
 
-TEST_CASE("scores go on from the snapshot of an interrupted run") {
+TEST_CASE("scores resume from the snapshot of an interrupted run") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -333,7 +333,7 @@ TEST_CASE("scores go on from the snapshot of an interrupted run") {
   whole.scores();
 
   struct Stop {};
-  // The last step is reported before its snapshot is written: it is lost and done again.
+  // The last step is reported before its snapshot is written: it is lost and repeated.
   const Messages stopping{.line = {}, .progress = [](std::string_view, Index done, Index total, double) {
                             if (done == total) throw Stop{};
                           }};
@@ -365,7 +365,7 @@ TEST_CASE("scores go on from the snapshot of an interrupted run") {
   CHECK_FALSE(std::filesystem::exists(snapshot_path(path)));
 }
 
-TEST_CASE("a dry run leaves nothing behind") {
+TEST_CASE("a dry run leaves no file") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -412,7 +412,7 @@ TEST_CASE("a configuration that does not fit the dataset is refused") {
   CHECK_FALSE(std::filesystem::exists(temporary.path() / "run/config.yaml"));
 }
 
-TEST_CASE("a contact sheet of held-out objects is written where categories are held out") {
+TEST_CASE("a contact sheet of held-out objects is written if categories are held out") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");
@@ -448,7 +448,7 @@ TEST_CASE("the tables have the selectors that the configuration names, else thos
                     "evaluation.selectors: there is no selector 'opt_int', did you mean 'opt_ind'?");
 }
 
-TEST_CASE("weights come from the folder, else are built in, else are random") {
+TEST_CASE("weights come from the folder, otherwise they are built in, otherwise random") {
   const TemporaryFolder temporary;
   const auto folder = temporary.path();
   const auto weights = [](const BackboneWithOrigin& from) { return from.weights; };

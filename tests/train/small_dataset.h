@@ -6,8 +6,8 @@
 
 namespace svnet {
 
-/// Pictures in the layout of a data set: 4 categories, 2 objects each, one pose, 4 views of 24x24 pixels. A category
-/// has its colour, which the views at 45 degrees show and the others hardly do.
+/// Images in the layout of a dataset: 4 categories of 2 objects with one pose, 4 views of 24x24 pixels each. Each
+/// category has its own colour, which is clear in the views at 45 degrees and faint in the others.
 inline void write_small_dataset(const std::filesystem::path& root) {
   const std::string categories[] = {"ball", "cone", "cube", "ring"};
   for (int category = 0; category < 4; ++category)

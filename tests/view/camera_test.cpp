@@ -17,7 +17,7 @@ struct Case {
   double diagonal_m;
 };
 
-/// Some camera, some pose, some object; every seventh is a top view.
+/// A random camera, camera pose and object; every seventh is a top view.
 Case random_case(std::uint64_t number) {
   RandomStream random(7, Stream::collection, number);
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
@@ -60,7 +60,7 @@ TEST_CASE("500 camera poses are rotations that look at the centre, level, from t
     CHECK(std::abs(seen.x() - camera.cx) < 1e-6);
     CHECK(std::abs(seen.y() - camera.cy) < 1e-6);
 
-    // Along the side with the smaller angle of view the diagonal spans 70 %.
+    // The diagonal spans 70 % of the side with the smaller angle of view.
     const bool across = camera.fx / static_cast<double>(camera.width) > camera.fy / static_cast<double>(camera.height);
     const Vector3d half = optical.linear().col(across ? 0 : 1) * diagonal / 2;
     const double span_px = (projected_px(camera, world_to_camera * (centre + half)) -
@@ -76,7 +76,7 @@ TEST_CASE("with square pixels the radius is the paper's f d / (0.7 min(w, h))") 
   CHECK(viewing_radius_m({480, 640, 600, 600, 240, 320}, 0.2) == Approx(600 * 0.2 / (0.7 * 480)));
 }
 
-TEST_CASE("at the zeros of the angles the axes are those of the documentation") {
+TEST_CASE("at angles 0 the axes are those of the documentation") {
   const auto pose = [](double theta, double phi, CameraFrame frame) {
     return look_at({theta, phi}, 2, {1, 1, 1}, frame);
   };
@@ -87,8 +87,8 @@ TEST_CASE("at the zeros of the angles the axes are those of the documentation") 
   CHECK(side.linear().col(2).isApprox(Vector3d(-1, 0, 0)));
   const auto top = pose(90, 90, CameraFrame::optical);
   CHECK(top.translation().isApprox(Vector3d(1, 1, 3)));
-  CHECK(top.linear().col(0).isApprox(Vector3d(-1, 0, 0)));  // the picture's right
-  CHECK(top.linear().col(1).isApprox(Vector3d(0, 1, 0)));   // the picture's lower side: towards a camera at theta 90
+  CHECK(top.linear().col(0).isApprox(Vector3d(-1, 0, 0)));  // the image's right
+  CHECK(top.linear().col(1).isApprox(Vector3d(0, 1, 0)));   // the image's lower side: towards a camera at theta 90
   CHECK(top.linear().col(2).isApprox(Vector3d(0, 0, -1)));
   // The top view is the limit of views from the same azimuth.
   CHECK((pose(40, 90, CameraFrame::paper).linear() - pose(40, 90 - 1e-7, CameraFrame::paper).linear()).norm() < 1e-8);
@@ -101,7 +101,7 @@ TEST_CASE("deprojection undoes projection") {
   CHECK(deprojected_m(camera, pixel.x(), pixel.y(), point.z()).isApprox(point));
 }
 
-TEST_CASE("cameras and poses that cannot be are refused") {
+TEST_CASE("impossible cameras and poses are refused") {
   const Intrinsics good{640, 480, 600, 600, 320, 240};
   CHECK(intrinsics_problem(good).empty());
   Intrinsics bad = good;

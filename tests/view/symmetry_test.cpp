@@ -10,7 +10,7 @@ using namespace svnet;
 
 namespace {
 
-/// The azimuth, in degrees, of the one pixel that is not 0, seen from the picture's centre; right is 0, up is 90.
+/// The azimuth, in degrees, of the one pixel that is not 0, seen from the image's centre; right is 0, up is 90.
 double azimuth_of_mark(Index side, const std::vector<float>& pixels) {
   for (Index i = 0; i < side; ++i)
     for (Index j = 0; j < side; ++j)
@@ -24,7 +24,7 @@ double azimuth_of_mark(Index side, const std::vector<float>& pixels) {
 
 }  // namespace
 
-TEST_CASE("A mark in a top view turns as azimuths do") {
+TEST_CASE("a mark in a top view turns like the azimuth") {
   constexpr Index kSide = 7;
   for (Index row = 0; row < kSide; ++row)
     for (Index column = 0; column < kSide; ++column) {
@@ -44,7 +44,7 @@ TEST_CASE("A mark in a top view turns as azimuths do") {
     }
 }
 
-TEST_CASE("All symmetries differ, and the first is the picture as taken") {
+TEST_CASE("all orientations differ, and the first is the image as taken") {
   std::vector<float> picture(3 * 3 * 3);
   for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = static_cast<float>(i + 1);
   std::set<std::vector<float>> seen;

@@ -1,7 +1,7 @@
 #include "command/command.h"
 
+#include <CLI/CLI.hpp>
 #include <csignal>
-#include <cstdlib>
 #include <ctime>
 #include <exception>
 #include <iostream>
@@ -12,7 +12,6 @@
 #include "base/version.h"
 #include "command/help_text.h"
 #include "command/interrupt.h"
-#include "command/openblas_cap.h"
 
 namespace svnet {
 namespace {
@@ -26,41 +25,66 @@ void flush_results() {
 }  // namespace
 
 Command::Command(std::string name, const std::string& description, const std::string& example)
-    : name_(std::move(name)), app_(description, name_) {
-  app_.formatter(std::make_shared<HelpText>());
-  app_.fallthrough();  // subcommands accept the options below too
-  app_.set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
-  app_.add_option("--threads", threads_,
-                  "Number of threads (default: SVNET_THREADS, or all CPUs that the process may use)")
+    : name_(std::move(name)), app_(std::make_unique<CLI::App>(description, name_)) {
+  app_->formatter(std::make_shared<HelpText>());
+  app_->fallthrough();  // subcommands accept the options below too
+  app_->set_version_flag("--version", name_ + " " + kVersion, "Print the version and exit");
+  app_->add_option("--threads", threads_,
+                   "Number of threads (default: SVNET_THREADS, or all CPUs that the process may use)")
       ->check(CLI::Range(1, 1024))
       ->type_name("N");
-  app_.add_flag("--quiet", quiet_, "Print results and errors only");
+  app_->add_flag("--quiet", quiet_, "Print results and errors only");
   std::string footer = "Example:";
   for (std::size_t start = 0; start <= example.size();) {
     const std::size_t end = std::min(example.find('\n', start), example.size());
     footer += "\n  " + example.substr(start, end - start);
     start = end + 1;
   }
-  app_.footer(footer);
+  app_->footer(footer);
 }
 
-CLI::Option* Command::add_precision() {
-  return app_
-      .add_option("--precision", precision_,
-                  "Precision of the network's products. bf16 is faster and less exact; it needs a processor with "
-                  "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
-      ->check(CLI::IsMember({"f32", "bf16"}))
-      ->type_name("f32|bf16");
+Command::~Command() = default;
+
+template <class T>
+Argument Command::add(const std::string& name, T& value, const std::string& help) {
+  return Argument(app_->add_option(name, value, help));
+}
+template Argument Command::add(const std::string&, std::string&, const std::string&);
+template Argument Command::add(const std::string&, std::filesystem::path&, const std::string&);
+template Argument Command::add(const std::string&, Index&, const std::string&);
+template Argument Command::add(const std::string&, std::uint64_t&, const std::string&);
+template Argument Command::add(const std::string&, double&, const std::string&);
+template Argument Command::add(const std::string&, std::vector<std::string>&, const std::string&);
+template Argument Command::add(const std::string&, std::vector<std::filesystem::path>&, const std::string&);
+template Argument Command::add(const std::string&, std::vector<double>&, const std::string&);
+
+Argument Command::add_flag(const std::string& name, bool& value, const std::string& help) {
+  return Argument(app_->add_flag(name, value, help));
+}
+
+Argument Command::add_callback(const std::string& name, const std::function<void(const std::string&)>& take,
+                               const std::string& help) {
+  const auto checked = [take](const std::string& text) {
+    try {
+      take(text);
+    } catch (const Error& error) {
+      throw CLI::ValidationError(error.what());
+    }
+  };
+  return Argument(app_->add_option_function<std::string>(name, checked, help));
+}
+
+Argument Command::add_precision() {
+  return add("--precision", precision_,
+             "Precision of the network's products. bf16 is faster and less exact; it needs a processor with "
+             "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
+      .one_of({"f32", "bf16"})
+      .value_name("f32|bf16");
 }
 
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Communicator& communicator) {
-  cap_openblas_from_environment(argv);
   std::signal(SIGXFSZ, SIG_IGN);  // a write beyond the file size limit fails with EFBIG; it does not kill the process
-  try {
-    app_.parse(argc, argv);
-  } catch (const CLI::ParseError& answer) {
-    return parsed(answer, communicator);
-  }
+  if (const std::optional<int> status = parse(argc, argv, communicator)) return *status;
   Console console(communicator.is_root() ? (quiet_ ? Console::Verbosity::quiet : Console::Verbosity::normal)
                                          : Console::Verbosity::errors_only,
                   stderr_is_terminal());
@@ -68,7 +92,6 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
     remember_interrupts();
     cap_from_environment();
     if (threads_ > 0) Parallel::shared().resize(threads_);
-    if (!precision_.empty()) ::setenv("SVNET_PRECISION", precision_.c_str(), 1);
     body(console);
     console.end_task();
     flush_results();
@@ -87,16 +110,21 @@ int Command::run(int argc, char** argv, const std::function<void(Console&)>& bod
   }
 }
 
-int Command::parsed(const CLI::ParseError& answer, const Communicator& communicator) {
-  Console console(Console::Verbosity::normal, stderr_is_terminal());
-  if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, communicator);
-  if (!communicator.is_root()) return 0;
-  app_.exit(answer, std::cout, std::cerr);
+std::optional<int> Command::parse(int argc, char** argv, const Communicator& communicator) {
   try {
-    flush_results();
-    return 0;
-  } catch (const Error& e) {
-    return report(console, e.what(), 1, communicator);
+    app_->parse(argc, argv);
+    return {};
+  } catch (const CLI::ParseError& answer) {
+    Console console(Console::Verbosity::normal, stderr_is_terminal());
+    if (answer.get_exit_code() != 0) return report(console, usage_text(answer.what()), 2, communicator);
+    if (!communicator.is_root()) return 0;
+    app_->exit(answer, std::cout, std::cerr);
+    try {
+      flush_results();
+      return 0;
+    } catch (const Error& e) {
+      return report(console, e.what(), 1, communicator);
+    }
   }
 }
 

@@ -1,10 +1,14 @@
 #pragma once
-#include <CLI/CLI.hpp>
+#include <filesystem>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "base/communicator.h"
 #include "base/error.h"
+#include "command/argument.h"
 #include "command/console.h"
 
 namespace svnet {
@@ -26,7 +30,7 @@ template <class... Parts>
 ///     int main(int argc, char** argv) {
 ///       Command command("svnet-info", "Says what a file contains.", "svnet-info model.safetensors");
 ///       std::string file;
-///       command.app().add_option("FILE", file, "A weights, features, scores or model file");
+///       command.add("FILE", file, "A weights, features, scores or model file");
 ///       return command.run(argc, argv, [&](Console& console) { console.result(describe(file)); });
 ///     }
 class Command {
@@ -34,13 +38,26 @@ class Command {
   /// `example`: command lines for --help, separated by line breaks.
   Command(std::string name, const std::string& description, const std::string& example);
 
-  /// The program adds its own arguments here.
-  CLI::App& app() { return app_; }
+  ~Command();
+  Command(const Command&) = delete;
+  Command& operator=(const Command&) = delete;
+
+  /// Adds an argument of the program, whose value parsing puts into `value`: an option if the name begins with "--". T
+  /// is std::string, std::filesystem::path, Index, std::uint64_t, double, or a vector of strings, paths or doubles.
+  template <class T>
+  Argument add(const std::string& name, T& value, const std::string& help);
+  /// An option without a value.
+  Argument add_flag(const std::string& name, bool& value, const std::string& help);
+  /// An option whose text is passed to `take`, which throws Error if the text is wrong.
+  Argument add_callback(const std::string& name, const std::function<void(const std::string&)>& take,
+                        const std::string& help);
 
   /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone.
-  CLI::Option* add_precision();
+  Argument add_precision();
+  /// "f32" or "bf16", "" if it was not given.
+  const std::string& precision() const { return precision_; }
 
-  /// Parses the arguments and runs `body`. SVNET_MAX_ISA, --threads and --precision are in force while it runs.
+  /// Parses the arguments and runs `body`. SVNET_MAX_ISA and --threads are in force while it runs.
   ///
   /// Returns the exit status: 0 done, 1 failed (one line on stderr says what, where and what to do), 2 wrong usage,
   /// 130 interrupted.
@@ -52,12 +69,13 @@ class Command {
           const Communicator& communicator = SingleProcess::shared());
 
  private:
-  int parsed(const CLI::ParseError& answer, const Communicator& communicator);
+  /// Returns the exit status if there is nothing to run: after --help, --version or wrong usage.
+  std::optional<int> parse(int argc, char** argv, const Communicator& communicator);
   std::string usage_text(const std::string& message) const;
   int report(Console& console, const std::string& message, int status, const Communicator& communicator) const;
 
   std::string name_;
-  CLI::App app_;
+  std::unique_ptr<CLI::App> app_;
   int threads_ = 0;
   std::string precision_{};
   bool quiet_ = false;

@@ -1,12 +1,12 @@
 #include "command/console.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <iostream>
 
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "base/environment.h"
 #include "base/error.h"
 #include "base/text.h"
 #include "command/interrupt.h"
@@ -104,8 +104,8 @@ void Console::erase_bar() {
 }
 
 bool stderr_is_terminal() {
-  const char* kind = std::getenv("TERM");
-  return ::isatty(STDERR_FILENO) == 1 && kind != nullptr && std::string_view(kind) != "dumb";
+  const std::string kind = environment_variable("TERM");
+  return ::isatty(STDERR_FILENO) == 1 && !kind.empty() && kind != "dumb";
 }
 
 }  // namespace svnet

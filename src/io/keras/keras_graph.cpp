@@ -148,7 +148,7 @@ Parameters matched(const KerasWeightsFile& file, const Graph& graph, const std::
 }  // namespace
 
 Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                             KerasLoadReport* report) {
+                             KerasLoadReport* report, const InferenceOptions& options) {
   const BackboneKind& kind = backbone_kind(name);
   const KerasWeightsFile file(weights);
   Graph graph = kind.graph(kind.preprocessing.height, true);
@@ -159,7 +159,7 @@ Backbone read_keras_backbone(const std::string& name, const std::filesystem::pat
     order = weighted_layers(graph, graph.output());
   }
   const NodeId output = output_layer(kind, graph, layer);
-  return {kind, graph, matched(file, graph, order, output, report), layer};
+  return {kind, graph, matched(file, graph, order, output, report), layer, options};
 }
 
 }  // namespace svnet

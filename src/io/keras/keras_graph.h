@@ -21,6 +21,6 @@ struct KerasLoadReport {
 /// Throws Error that names the file and the layer if one is missing, unexpected or of another shape, or has the name of
 /// another layer of the graph.
 Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                             KerasLoadReport* report = nullptr);
+                             KerasLoadReport* report = nullptr, const InferenceOptions& options = {});
 
 }  // namespace svnet

@@ -11,8 +11,8 @@ namespace {
 
 constexpr const char* kKind = "weights";
 
-Backbone backbone_of(const TensorFile& file, const std::string& name, const std::string& layer,
-                     KerasLoadReport* report) {
+Backbone backbone_of(const TensorFile& file, const std::string& name, const std::string& layer, KerasLoadReport* report,
+                     const InferenceOptions& options) {
   const BackboneKind& kind = backbone_kind(name);
   const auto written_for = file.get<std::string>("backbone");
   check(written_for == name, file.path(), ": holds weights of ", written_for, ", expected weights of ", name);
@@ -27,7 +27,7 @@ Backbone backbone_of(const TensorFile& file, const std::string& name, const std:
       if (const GraphNode& node = graph.nodes()[id]; !node.parameters.empty())
         (needed[id] ? report->loaded : report->unused).push_back(node.name);
   }
-  return {kind, graph, parameters, layer};
+  return {kind, graph, parameters, layer, options};
 }
 
 }  // namespace
@@ -40,20 +40,23 @@ void write_backbone(const std::filesystem::path& path, const Backbone& backbone,
 }
 
 Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                       KerasLoadReport* report) {
-  if (weights.extension() == ".safetensors") return backbone_of(TensorFile::read(weights, kKind), name, layer, report);
-  return read_keras_backbone(name, weights, layer, report);
+                       KerasLoadReport* report, const InferenceOptions& options) {
+  if (weights.extension() == ".safetensors")
+    return backbone_of(TensorFile::read(weights, kKind), name, layer, report, options);
+  return read_keras_backbone(name, weights, layer, report, options);
 }
 
 bool has_built_in_weights(const BackboneKind& kind) { return !built_in_weights(kind.name).empty(); }
 
-std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer) {
+std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer,
+                                                 const InferenceOptions& options) {
   if (!has_built_in_weights(backbone_kind(name))) return {};
   const auto contents = built_in_weights(name);
   Sha256 hash;
   hash.update(contents.data(), contents.size());
   return BuiltInBackbone{
-      backbone_of(TensorFile::parse("built-in weights of " + name, contents, kKind), name, layer, nullptr), hash.hex()};
+      backbone_of(TensorFile::parse("built-in weights of " + name, contents, kKind), name, layer, nullptr, options),
+      hash.hex()};
 }
 
 std::optional<std::filesystem::path> find_weights(const BackboneKind& kind, const std::filesystem::path& folder) {

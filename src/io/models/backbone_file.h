@@ -16,7 +16,7 @@ void write_backbone(const std::filesystem::path& path, const Backbone& backbone,
 /// The backbone with the weights of a Keras or safetensors file. Throws Error that names the file and the layer or
 /// tensor if one is missing, unexpected or of another shape.
 Backbone read_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer = "",
-                       KerasLoadReport* report = nullptr);
+                       KerasLoadReport* report = nullptr, const InferenceOptions& options = {});
 
 /// Whether weights of the backbone are part of the program. Only tiny_xception has some.
 bool has_built_in_weights(const BackboneKind& kind);
@@ -27,7 +27,8 @@ struct BuiltInBackbone {
   std::string sha256;
 };
 /// Empty if the backbone has no built-in weights. Throws Error for an unknown backbone or layer.
-std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer = "");
+std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer = "",
+                                                 const InferenceOptions& options = {});
 
 /// The file of the backbone's weights in a folder: <name>.safetensors, or a name under which Keras publishes them.
 /// Empty if there is none.

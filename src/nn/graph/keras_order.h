@@ -5,9 +5,10 @@
 
 namespace svnet {
 
-/// The ancestors of `output` in the order of Keras' `model.layers` for a functional model with that output: by
-/// decreasing depth (the longest way to the output), and within a depth in the order in which a depth-first walk from
-/// the output, inputs first to last, first meets them (keras.src.ops.function.map_graph). Weight files list layers so.
+/// The layers that `output` depends on, in the order of `model.layers` of a Keras model with that output; weight files
+/// list layers in this order. Layers are sorted by decreasing depth (the longest path to the output). Layers of equal
+/// depth stand in the order in which a depth-first walk from the output, inputs first to last, meets them first
+/// (keras.src.ops.function.map_graph).
 std::vector<NodeId> keras_order(const Graph& graph, NodeId output);
 
 }  // namespace svnet

@@ -7,12 +7,12 @@
 
 namespace svnet {
 
-/// The numbers of a graph by name ("layer/kernel"), in the order in which they were set.
+/// The parameters of a graph by name ("layer/kernel"), in the order in which they were set.
 class Parameters {
  public:
   void set(const std::string& name, Tensor value);
   bool contains(const std::string& name) const { return index_.count(name) != 0; }
-  /// Throws Error where there is none of that name.
+  /// Throws Error if there is none of that name.
   Tensor& at(const std::string& name);
   const Tensor& at(const std::string& name) const;
   const std::vector<std::pair<std::string, Tensor>>& items() const { return items_; }
@@ -22,10 +22,10 @@ class Parameters {
   std::vector<std::pair<std::string, Tensor>> items_;
 };
 
-/// Every parameter of the graph from its initialiser; trainable ones are leaves of the tape.
+/// Every parameter of the graph as its initialiser draws it. Trainable ones are leaves of the tape.
 Parameters initial_parameters(const Graph& graph, std::uint64_t seed, DType dtype = DType::f32);
 
-/// The trainable parameters of the graph, in its order.
+/// The trainable parameters, in the order of the graph.
 std::vector<Tensor> trainable(const Graph& graph, const Parameters& parameters);
 
 }  // namespace svnet

@@ -95,8 +95,11 @@ class Runner {
     return training() ? value : value.detached();
   }
 
-  static ops::ConvOptions conv_options(const auto& layer) {
-    return {.stride_h = layer.stride_h, .stride_w = layer.stride_w, .padding = layer.padding};
+  ops::ConvOptions conv_options(const auto& layer) const {
+    return {.stride_h = layer.stride_h,
+            .stride_w = layer.stride_w,
+            .padding = layer.padding,
+            .convolution = training() ? context_->convolution : kernels::Convolution::automatic};
   }
 
   Tensor with_bias_and_activation(const auto& layer, const At& at, const Tensor& y) const {

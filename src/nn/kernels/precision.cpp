@@ -4,14 +4,9 @@
 
 #include "base/cpu.h"
 #include "base/error.h"
-#include "nn/kernels/environment_word.h"
 #include "nn/kernels/packed/bf16_tile.h"
 
 namespace svnet::kernels {
-
-Precision precision_from_environment() {
-  return environment_word("SVNET_PRECISION", "f32", Precision::f32, "bf16", Precision::bf16, Precision::f32);
-}
 
 void check_available(Precision precision) {
   if (precision == Precision::f32) return;

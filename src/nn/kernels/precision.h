@@ -1,15 +1,20 @@
 #pragma once
+#include "base/enum_names.h"
 
 namespace svnet::kernels {
 
-/// What both operands of the products of compiled inference are rounded to. Sums, and all that lies between layers, are
-/// f32 either way.
+/// What both operands of the products of compiled inference are rounded to. Sums and everything between layers are f32.
 enum class Precision { f32, bf16 };
 
-/// What SVNET_PRECISION=f32|bf16 asks for; f32 without it. Throws Error for another word.
-Precision precision_from_environment();
-
-/// Throws Error where the machine, or the instruction set that kernels are capped at, has no such products.
+/// Throws Error if the processor, or the instruction set that kernels are capped at, has no such products.
 void check_available(Precision precision);
 
 }  // namespace svnet::kernels
+
+namespace svnet {
+
+template <>
+inline constexpr auto enum_names<kernels::Precision> =
+    std::to_array<EnumName<kernels::Precision>>({{kernels::Precision::f32, "f32"}, {kernels::Precision::bf16, "bf16"}});
+
+}  // namespace svnet

@@ -37,9 +37,9 @@ Window::Columns Window::inner_columns() const {
   return {first, w + left >= kw ? std::clamp((w + left - kw) / stride_w + 1, first, ow) : first};
 }
 
-Window Window::input_gradient(Index k) const {
+Window Window::input_gradient(Index output_channels) const {
   Window over = *this;
-  over.h = oh, over.w = ow, over.c = k;
+  over.h = oh, over.w = ow, over.c = output_channels;
   over.oh = h, over.ow = w;
   over.top = kh - 1 - top, over.left = kw - 1 - left;
   return over;

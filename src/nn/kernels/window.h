@@ -4,8 +4,8 @@
 
 namespace svnet {
 
-/// How a window meets the border, as in Keras: valid keeps whole windows; same gives ⌈size / stride⌉ outputs and puts
-/// the odd zero at the bottom and right; or the given numbers of zeros.
+/// Zeros around an image, as in Keras. valid: none, only whole windows count. same: as many as give ⌈size / stride⌉
+/// outputs; an odd zero is at the bottom and right. explicit_: the given numbers.
 struct Padding {
   enum class Kind { valid, same, explicit_ };
   Kind kind = Kind::valid;
@@ -23,11 +23,11 @@ template <>
 inline constexpr auto enum_names<Padding::Kind> = std::to_array<EnumName<Padding::Kind>>(
     {{Padding::Kind::valid, "valid"}, {Padding::Kind::same, "same"}, {Padding::Kind::explicit_, "explicit"}});
 
-/// Sizes of windows, strides and paddings are smaller, so that sums of them fit.
+/// Sizes of windows, strides and paddings are below this, so that their sums do not overflow.
 constexpr Index kLargestWindow = Index{1} << 31;
 
-/// A window that slides over images x (N, H, W, C) and gives (N, OH, OW, …): what convolution and pooling share.
-/// Window (oh, ow) covers rows oh·stride_h − top + [0, kh) and columns ow·stride_w − left + [0, kw).
+/// A window that moves over images x (N, H, W, C) and gives outputs (N, OH, OW, …): what convolution and pooling share.
+/// The window of output (oh, ow) covers rows oh·stride_h − top + [0, kh) and columns ow·stride_w − left + [0, kw).
 struct Window {
   Index n, h, w, c;
   Index kh, kw, stride_h, stride_w;
@@ -35,28 +35,28 @@ struct Window {
   Index oh, ow;
 
   Index positions() const { return n * oh * ow; }
-  /// The output columns whose windows reach neither out of the left nor out of the right side of the image.
+  /// The output columns whose windows lie between the left and the right border of the image.
   struct Columns {
-    Index first, last;  // [first, last), perhaps none
+    Index first, last;  // [first, last), may be empty
   };
   Columns inner_columns() const;
-  /// The window that, sliding over dy (N, OH, OW, k), gives the gradient of this one's input, of which it covers all
-  /// pixels, with the weights flipped along both axes. Strides must be 1.
-  Window input_gradient(Index k) const;
-  /// Whether each window is one pixel, in the image's order.
+  /// The window of the convolution that computes the input gradient (N, H, W, C) from dy (N, OH, OW, K), with weights
+  /// flipped along both axes. Requires strides of 1.
+  Window input_gradient(Index output_channels) const;
+  /// Whether each window is one pixel, in the order of the image: the matrix of windows is the image itself.
   bool reads_in_place() const {
     return kh == 1 && kw == 1 && stride_h == 1 && stride_w == 1 && top == 0 && left == 0 && oh == h && ow == w;
   }
 };
 
-/// What describes a window before the image is known.
+/// A window before the size of the image is known.
 struct WindowOptions {
   Index kh = 1, kw = 1, stride_h = 1, stride_w = 1;
   Padding padding{};
 };
 
-/// Throws Error, prefixed by [operation], where a size (other than n) is not positive or the window does not fit the
-/// padded image.
+/// Throws Error, prefixed by [operation], if a size other than n is not positive or the window does not fit the padded
+/// image.
 Window window_over(const char* operation, Index n, Index h, Index w, Index c, const WindowOptions& options);
 
 }  // namespace svnet

@@ -61,12 +61,12 @@ Tensor initialised(Initializer initializer, const Shape& shape, std::uint64_t se
   constexpr Index kRun = 1 << 14;
   Tensor tensor = Tensor::empty(shape, dtype);
   with_dtype(dtype, [&]<class T>() {
-    T* numbers = tensor.data<T>();
+    T* values = tensor.data<T>();
     Parallel::shared().for_chunks(tensor.size(), kRun, [&](Index begin, Index end, int) {
       RandomStream random(seed, Stream::weights,
                           std::uint64_t{number} << 32 | static_cast<std::uint64_t>(begin / kRun));
       for (Index i = begin; i < end; ++i)
-        numbers[i] =
+        values[i] =
             static_cast<T>(l.normal ? deviation * truncated_normal(random) : limit * (2 * random.uniform() - 1));
     });
   });

@@ -20,7 +20,8 @@ enum class Initializer {
   lecun_normal
 };
 
-/// Drawn from Stream::weights of `seed`, number `number`, in fixed runs: the same for any number of threads.
+/// A tensor drawn from Stream::weights of `seed`; `number` is that of the parameter in its graph. The same for any
+/// number of threads.
 Tensor initialised(Initializer initializer, const Shape& shape, std::uint64_t seed, std::uint32_t number,
                    DType dtype = DType::f32);
 

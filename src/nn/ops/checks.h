@@ -15,10 +15,11 @@ inline std::string shapes(const Tensor& a, const Tensor& b) {
   return to_string(a.shape()) + " * " + to_string(b.shape());
 }
 
-/// Throws Error, prefixed by [op], where an operand is an empty handle or the element types differ.
+/// Throws Error, prefixed by [op], if an operand is an empty handle or the element types differ.
 void check_operands(const char* op, std::initializer_list<Tensor> operands);
 
-/// For operations over the last axis: the number of elements before it. Throws Error where `x` is a scalar.
+/// For operations over the last axis: the number of rows, which is the product of the other sizes. Throws Error if x is
+/// a scalar or the last axis is empty.
 Index leading(const char* op, const Tensor& x);
 
 }  // namespace svnet::ops

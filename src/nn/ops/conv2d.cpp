@@ -2,7 +2,6 @@
 
 #include "nn/autograd.h"
 #include "nn/kernels/conv2d/conv2d.h"
-#include "nn/kernels/convolution_choice.h"
 #include "nn/kernels/depthwise/depthwise.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/ops/checks.h"
@@ -21,10 +20,10 @@ Window window(const char* op, const Tensor& x, const Tensor& w, const ConvOption
       {.kh = w.dim(0), .kw = w.dim(1), .stride_h = o.stride_h, .stride_w = o.stride_w, .padding = o.padding});
 }
 
-/// The three passes of a 3×3 convolution of stride 1 by Winograd, in f32.
-bool by_winograd(const kernels::Conv2dShape& s, DType dtype) {
+/// Whether the three passes of a convolution use Winograd: 3×3 of stride 1 in f32.
+bool uses_winograd(const kernels::Conv2dShape& s, DType dtype, kernels::Convolution convolution) {
   return dtype == DType::f32 && s.window.n > 0 && kernels::winograd_fits(s.window, s.k) &&
-         kernels::convolution_from_environment() != kernels::Convolution::direct;
+         convolution != kernels::Convolution::direct;
 }
 
 Tensor direct_forward(const kernels::Conv2dShape& s, const Tensor& x, const Tensor& w) {
@@ -43,8 +42,8 @@ Tensor winograd_forward(const Window& window, const Tensor& x, const kernels::Wi
   return y;
 }
 
-Tensor input_gradient(const kernels::Conv2dShape& s, const Tensor& dy, const Tensor& w) {
-  if (by_winograd(s, dy.dtype()))
+Tensor input_gradient(const kernels::Conv2dShape& s, bool winograd, const Tensor& dy, const Tensor& w) {
+  if (winograd)
     return winograd_forward(s.window.input_gradient(s.k), dy,
                             kernels::winograd_flipped_weights(s.window.c, s.k, w.data<float>()));
   Tensor dx = Tensor::empty({s.window.n, s.window.h, s.window.w, s.window.c}, dy.dtype());
@@ -53,9 +52,9 @@ Tensor input_gradient(const kernels::Conv2dShape& s, const Tensor& dy, const Ten
   return dx;
 }
 
-Tensor weight_gradient(const kernels::Conv2dShape& s, const Tensor& x, const Tensor& dy) {
+Tensor weight_gradient(const kernels::Conv2dShape& s, bool winograd, const Tensor& x, const Tensor& dy) {
   Tensor dw = Tensor::empty({s.window.kh, s.window.kw, s.window.c, s.k}, dy.dtype());
-  if (by_winograd(s, dy.dtype())) {
+  if (winograd) {
     Tensor memory = scratch(kernels::winograd_weight_gradient_scratch(s.window, s.k));
     kernels::winograd_weight_gradient(pool(), s.window, s.k, x.data<float>(), dy.data<float>(), dw.data<float>(),
                                       memory.data<float>());
@@ -70,13 +69,15 @@ Tensor weight_gradient(const kernels::Conv2dShape& s, const Tensor& x, const Ten
 
 Tensor conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
   const kernels::Conv2dShape s{.window = window("conv2d", x, w, options), .k = w.dim(3)};
-  Tensor y = by_winograd(s, x.dtype())
+  const bool winograd = uses_winograd(s, x.dtype(), options.convolution);
+  Tensor y = winograd
                  ? winograd_forward(s.window, x, kernels::winograd_weights(s.window.c, s.k, w.data<float>(), nullptr))
                  : direct_forward(s, x, w);
-  return autograd::record(y, {x, w}, [s, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
-    if (g.wants(0)) g.add(0, input_gradient(s, dy, w));
-    if (g.wants(1)) g.add(1, weight_gradient(s, x, dy));
-  });
+  return autograd::record(y, {x, w},
+                          [s, winograd, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
+                            if (g.wants(0)) g.add(0, input_gradient(s, winograd, dy, w));
+                            if (g.wants(1)) g.add(1, weight_gradient(s, winograd, x, dy));
+                          });
 }
 
 Tensor depthwise_conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {

@@ -9,7 +9,7 @@
 namespace svnet::ops {
 namespace {
 
-/// y = x · mask / (1 − rate); the mask is drawn again for the backward rather than kept.
+/// y = x · mask / (1 − rate); the backward draws the mask again, so that it need not be kept.
 Tensor masked(const Tensor& x, double rate, const DropoutKey& key) {
   const auto threshold = static_cast<std::uint32_t>(std::min(rate * 0x1p32, 0x1p32 - 1));
   Tensor y = Tensor::empty(x.shape(), x.dtype());

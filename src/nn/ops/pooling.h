@@ -4,7 +4,8 @@
 
 namespace svnet::ops {
 
-/// x (N, H, W, C) -> (N, OH, OW, C). The border never counts: it is no maximum, and a mean is over the pixels inside.
+/// x (N, H, W, C) -> (N, OH, OW, C). The padding never counts: maximum and mean are taken over the pixels inside the
+/// image.
 Tensor max_pool2d(const Tensor& x, const WindowOptions& options);
 Tensor average_pool2d(const Tensor& x, const WindowOptions& options);
 

@@ -8,7 +8,7 @@
 namespace svnet::ops {
 namespace {
 
-/// Copies `rows` runs of `count` numbers between arrays whose rows are `from_stride` and `to_stride` apart.
+/// Copies `rows` rows of `count` elements. The strides are the distances between the starts of rows.
 template <class T>
 void copy_rows(Index rows, Index count, const T* from, Index from_stride, T* to, Index to_stride) {
   for (Index row = 0; row < rows; ++row) std::copy_n(from + row * from_stride, count, to + row * to_stride);

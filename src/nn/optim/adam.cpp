@@ -52,7 +52,7 @@ class Adam : public Optimizer {
   }
 
  private:
-  /// Not of biases and the like.
+  /// Weight decay, of tensors of two axes or more.
   static void decay(Tensor& parameter, double kept) {
     if (kept == 1 || parameter.rank() < 2) return;
     with_dtype(parameter.dtype(), [&]<class T>() {

@@ -8,16 +8,17 @@
 
 namespace svnet {
 
-/// Changes parameters by their gradients. State (moments, velocities) is exposed for checkpoints.
+/// Changes parameters by their gradients. Its state (moments, velocities) is public for checkpoints.
 class Optimizer {
  public:
   virtual ~Optimizer() = default;
   /// One step at the given learning rate. Parameters without a gradient stay as they are.
   virtual void step(const autograd::GradientMap& gradients, double learning_rate) = 0;
-  /// Tensors that must be saved and restored with the parameters, in a fixed order; they follow later steps.
+  /// The tensors to save with the parameters, in a fixed order. The handles share the elements, which later steps
+  /// change.
   virtual std::vector<Tensor> state() const = 0;
-  /// Goes on from a saved state after `done` steps; an empty state is that of the start. Throws Error where the shapes
-  /// are not those of state().
+  /// Continues from the state after `done` steps; an empty state means the initial one. Throws Error if the shapes are
+  /// not those of state().
   void restore(const std::vector<Tensor>& saved, std::int64_t done);
   /// Steps done so far.
   std::int64_t steps = 0;
@@ -25,8 +26,8 @@ class Optimizer {
 
 /// Adam in the "ε̂" form of Kingma and Ba (2015, end of section 2), as Keras has it:
 ///   m ← β₁m + (1 − β₁)g,  v ← β₂v + (1 − β₂)g²,  θ ← θ − rate · √(1 − β₂ᵗ) / (1 − β₁ᵗ) · m / (√v + ε).
-/// With weight decay θ ← θ − rate · decay · θ comes before (Loshchilov and Hutter, "Decoupled weight decay
-/// regularization", 2019), for kernels alone: tensors of two axes or more.
+/// Weight decay comes before: θ ← θ − rate · decay · θ (Loshchilov and Hutter, "Decoupled weight decay regularization",
+/// 2019). It applies only to tensors of two axes or more, so not to biases and batch norms.
 struct AdamOptions {
   double beta1 = 0.9, beta2 = 0.999, epsilon = 1e-7, weight_decay = 0;
 };

@@ -6,8 +6,10 @@
 namespace svnet {
 
 /// The learning rate of each training step.
-/// constant: base. step: base · factor^⌊step / period⌋. cosine: base · (1 + cos(π · step / total)) / 2, 0 from total
-/// on. A warm-up comes before them and rises evenly to base; steps of the others are then counted from its end.
+///   constant  base
+///   step      base · factor^⌊step / period⌋
+///   cosine    base · (1 + cos(π · step / total)) / 2, and 0 after `total` steps
+/// During the first `warm_up` steps the rate rises linearly to base. The formulas count steps from the end of these.
 struct Schedule {
   enum class Kind { constant, step, cosine };
   Kind kind = Kind::constant;

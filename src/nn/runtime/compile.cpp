@@ -282,11 +282,10 @@ class Compiler {
 
 }  // namespace
 
-Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution,
-                Precision precision) {
-  kernels::check_available(precision);
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options) {
+  kernels::check_available(options.precision);
   const FoldedGraph inference = folded(graph, parameters, output);
-  return Compiler(inference.graph, inference.parameters, convolution, precision).program();
+  return Compiler(inference.graph, inference.parameters, options.convolution, options.precision).program();
 }
 
 }  // namespace svnet::runtime

@@ -4,8 +4,7 @@
 
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
-#include "nn/kernels/convolution_choice.h"
-#include "nn/kernels/precision.h"
+#include "nn/runtime/inference_options.h"
 #include "nn/runtime/step.h"
 
 namespace svnet::runtime {
@@ -14,7 +13,7 @@ namespace svnet::runtime {
 using ValueId = int;
 
 struct ProgramStep {
-  std::string layer;  // the last layer that the step stands for
+  std::string layer;  // the last layer that the step computes
   StepPointer step;
   std::vector<ValueId> inputs;
   ValueId output;
@@ -25,17 +24,16 @@ struct Program {
   std::vector<Shape> inputs;  // shapes without the batch
   Shape output_shape;
   std::vector<ProgramStep> steps;
-  std::vector<Index> sizes;  // numbers of each value for one sample
+  std::vector<Index> sizes;  // elements of each value, for one sample
   ValueId output;            // written by exactly one step
 };
 
 using kernels::Convolution;
 using kernels::Precision;
 
-/// Compiles what `output` needs: batch norms folded, and padding, activations, additions, pooling, and the pointwise
-/// half of separable convolutions fused into the convolution beside them wherever nobody else reads what lies between.
-/// Parameters must be f32, and the machine must have products of the precision (Error otherwise).
-Program compile(const Graph& graph, const Parameters& parameters, NodeId output, Convolution convolution,
-                Precision precision = Precision::f32);
+/// Compiles the layers that `output` depends on. Batch norms are folded. Padding, activations, additions, pooling and
+/// the pointwise half of separable convolutions are fused into the convolution beside them, unless another layer reads
+/// the value between them. Throws Error if parameters are not f32 or the machine lacks the precision.
+Program compile(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options);
 
 }  // namespace svnet::runtime

@@ -10,7 +10,8 @@ namespace {
 
 using namespace kernels;
 
-const float* numbers(const Tensor& t) { return t.defined() ? t.data<float>() : nullptr; }
+/// The elements of a tensor, nullptr for an empty handle.
+const float* data_of(const Tensor& t) { return t.defined() ? t.data<float>() : nullptr; }
 
 Window with_batch(Window window, Index batch) {
   window.n = batch;
@@ -36,7 +37,7 @@ class PackedConvolution : public Step {
                     Precision precision)
       : window_(window),
         weights_(
-            packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), numbers(kernel), numbers(bias), precision)),
+            packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), data_of(kernel), data_of(bias), precision)),
         finish_(finish) {}
 
   void run(const StepBuffers& b) const override {
@@ -49,8 +50,8 @@ class PackedConvolution : public Step {
   std::string kernel() const override {
     return joined(window_.reads_in_place() ? gemm_text(weights_) : implicit_text(weights_), " ", size_text(window_));
   }
-  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.k * weights_.n); }
-  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.depth * weights_.n); }
+  double flops() const override { return 2.0 * static_cast<double>(window_.positions() * weights_.depth * weights_.n); }
+  double weight_bytes() const override { return 4.0 * static_cast<double>(weights_.panel_rows * weights_.n); }
 
  private:
   Window window_;
@@ -62,7 +63,7 @@ class WinogradConvolution : public Step {
  public:
   WinogradConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish)
       : window_(window),
-        weights_(winograd_weights(window.c, kernel.dim(-1), numbers(kernel), numbers(bias))),
+        weights_(winograd_weights(window.c, kernel.dim(-1), data_of(kernel), data_of(bias))),
         finish_{finish.clamp, finish.pool} {}
 
   void run(const StepBuffers& b) const override {
@@ -88,8 +89,8 @@ class Separable : public Step {
   Separable(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
             const ConvolutionFinish& finish, Precision precision)
       : window_(window),
-        taps_(depthwise_taps(window.kh, window.kw, window.c, numbers(depthwise.kernel), numbers(depthwise.bias))),
-        weights_(packed_weights(window.c, pointwise.dim(-1), numbers(pointwise), numbers(bias), precision)),
+        taps_(depthwise_taps(window.kh, window.kw, window.c, data_of(depthwise.kernel), data_of(depthwise.bias))),
+        weights_(packed_weights(window.c, pointwise.dim(-1), data_of(pointwise), data_of(bias), precision)),
         finish_(finish) {
     taps_.relu_input = depthwise.relu_input;
     taps_.clamp = depthwise.clamp;
@@ -107,7 +108,7 @@ class Separable : public Step {
     return 2.0 * static_cast<double>(window_.positions() * window_.c * (window_.kh * window_.kw + weights_.n));
   }
   double weight_bytes() const override {
-    return 4.0 * static_cast<double>(window_.c * window_.kh * window_.kw + weights_.depth * weights_.n);
+    return 4.0 * static_cast<double>(window_.c * window_.kh * window_.kw + weights_.panel_rows * weights_.n);
   }
 
  protected:
@@ -122,8 +123,8 @@ class ExpandedSeparable : public Separable {
   ExpandedSeparable(const Window& window, const ExpansionPart& expansion, const DepthwisePart& depthwise,
                     const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish, Precision precision)
       : Separable(window, depthwise, pointwise, bias, finish, precision),
-        expansion_(packed_weights(expansion.kernel.size() / window.c, window.c, numbers(expansion.kernel),
-                                  numbers(expansion.bias), precision)),
+        expansion_(packed_weights(expansion.kernel.size() / window.c, window.c, data_of(expansion.kernel),
+                                  data_of(expansion.bias), precision)),
         clamp_(expansion.clamp) {}
 
   void run(const StepBuffers& b) const override {
@@ -131,14 +132,14 @@ class ExpandedSeparable : public Separable {
                               weights_, packed_finish(finish_, b), b.output, b.scratch);
   }
   Index scratch(Index, int threads) const override {
-    return expanded_separable_scratch(window_, threads, expansion_.k, weights_.precision);
+    return expanded_separable_scratch(window_, threads, expansion_.depth, weights_.precision);
   }
   std::string kernel() const override { return joined(gemm_text(expansion_), " + ", Separable::kernel()); }
   double flops() const override {
-    return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.k * expansion_.n);
+    return Separable::flops() + 2.0 * static_cast<double>(window_.h * window_.w * expansion_.depth * expansion_.n);
   }
   double weight_bytes() const override {
-    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.depth * expansion_.n);
+    return Separable::weight_bytes() + 4.0 * static_cast<double>(expansion_.panel_rows * expansion_.n);
   }
 
  private:
@@ -165,15 +166,15 @@ class SeparableMaxPool : public Separable {
   Window pool_;
 };
 
-/// A depthwise convolution that no pointwise one follows at once.
+/// A depthwise convolution that no pointwise one follows.
 class Depthwise : public Step {
  public:
   Depthwise(const Window& window, const DepthwisePart& part, Index multiplier)
       : window_(window), part_(part), multiplier_(multiplier) {}
 
   void run(const StepBuffers& b) const override {
-    depthwise(b.parallel, {with_batch(window_, b.batch), multiplier_}, b.inputs[0], numbers(part_.kernel), b.output,
-              Epilogue<float>{numbers(part_.bias), part_.clamp});
+    depthwise(b.parallel, {with_batch(window_, b.batch), multiplier_}, b.inputs[0], data_of(part_.kernel), b.output,
+              Epilogue<float>{data_of(part_.bias), part_.clamp});
   }
   std::string kernel() const override { return joined("depthwise ", size_text(window_)); }
   double flops() const override { return 2.0 * static_cast<double>(window_.positions() * part_.kernel.size()); }
@@ -190,7 +191,7 @@ class Depthwise : public Step {
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
                              const ConvolutionFinish& finish, bool winograd, Precision precision) {
   if (winograd) return std::make_unique<WinogradConvolution>(window, kernel, bias, finish);
-  // First layers: rounding such short runs of a window costs more than the products save.
+  // In first layers the rows of a window are so short that rounding them costs more than the products save.
   if (window.kh > 1 && window.kw * window.c < 2 * kPanel) precision = Precision::f32;
   return std::make_unique<PackedConvolution>(window, kernel, bias, finish, precision);
 }

@@ -21,7 +21,7 @@ Fusion::Fusion(const Graph& graph, Convolution convolution)
     : graph_(graph), convolution_(convolution), readers_(graph.nodes().size(), 0), fused_(graph.nodes().size(), false) {
   for (const auto& node : graph.nodes())
     for (NodeId id : node.inputs) ++readers_[at(id)];
-  ++readers_[at(graph.output())];  // whoever asked for it
+  ++readers_[at(graph.output())];  // the caller
   for (NodeId id = 0; id <= graph.output(); ++id) fuse_inputs(id);
 }
 
@@ -71,8 +71,8 @@ void Fusion::fuse_padding(NodeId input, const Padding& own) {
   if (node(input).is<ZeroPadding2dLayer>() && is_valid(own)) fuse(input);
 }
 
-/// Marks those inputs of the node that become part of its step. Inputs come before their readers, so what is fused
-/// into an input is known already.
+/// Marks the inputs of the node that become part of its step. Inputs come before their readers, so it is known already
+/// what is fused into them. A layer that is not listed runs as a step of its own.
 void Fusion::fuse_inputs(NodeId id) {
   if (node(id).inputs.empty()) return;
   const NodeId input = node(id).inputs[0];
@@ -93,7 +93,7 @@ void Fusion::fuse_inputs(NodeId id) {
                         [&](const SeparableConv2dLayer& l) {
                           if (!alone || l.multiplier != 1) return;
                           fuse_padding(input, l.padding);
-                          // An activation that takes an addition along is a step of its own.
+                          // An activation into which an addition is fused is a step of its own.
                           if (const auto* a = node(input).as<ActivationLayer>();
                               a != nullptr && a->activation == Activation::relu && !fused(node(input).inputs[0]))
                             fuse(input);
@@ -113,7 +113,7 @@ void Fusion::fuse_inputs(NodeId id) {
              node(id).layer);
 }
 
-/// Whether what a depthwise convolution reads can be made row by row as it is needed.
+/// Whether the input of a depthwise convolution can be computed row by row within its step.
 bool Fusion::can_expand(NodeId depthwise) const {
   const NodeId from = source(depthwise);
   const auto* l = node(from).as<Conv2dLayer>();
@@ -129,7 +129,7 @@ bool Fusion::can_add(NodeId id) const {
   return l != nullptr && l->activation == Activation::none && !uses_winograd(id);
 }
 
-/// Whether the kernel of what the pool reads can pool its output.
+/// Whether the kernel of the pool's input can also pool.
 bool Fusion::can_pool(NodeId id, const Pool2dLayer& layer) const {
   if (layer.kind != PoolKind::max) return false;
   const NodeId input = node(id).inputs[0];

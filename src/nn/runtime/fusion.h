@@ -9,20 +9,20 @@ namespace svnet::runtime {
 
 using kernels::Convolution;
 
-/// Which nodes of a folded graph become part of the step of their only reader, and what that makes of the reader:
-/// paddings and ReLUs before a convolution, additions, activations and pools behind it, the two or three convolutions
-/// of a separable block. The graph must outlive it.
+/// Decides which nodes of a folded graph become part of the step of their only reader: padding and ReLU before a
+/// convolution; a convolution before an addition, activation or pool; the two or three convolutions of a separable
+/// block. Requires that the graph outlives it.
 class Fusion {
  public:
   Fusion(const Graph& graph, Convolution convolution);
 
   /// Whether the node is part of its reader's step.
   bool fused(NodeId id) const { return fused_[at(id)]; }
-  /// The node whose value a convolution reads: past the padding or ReLU that is fused into it.
+  /// The node whose value the step of a convolution reads: the input of a padding or ReLU that is fused into it.
   NodeId source(NodeId id) const;
   /// Whether a ReLU is fused into the convolution that reads it.
   bool relu_before(NodeId id) const;
-  /// Nodes that run as depthwise + pointwise in one.
+  /// Whether the node runs as a depthwise and a pointwise convolution in one step.
   bool is_separable(NodeId id) const;
   bool uses_winograd(NodeId id) const;
 

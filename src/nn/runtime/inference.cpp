@@ -7,6 +7,7 @@
 namespace svnet {
 namespace {
 
+/// Where each value lies in the arena, for one sample.
 runtime::MemoryPlan planned(const runtime::Program& program) {
   std::vector<runtime::Lifetime> values(program.sizes.size());
   for (std::size_t i = 0; i < values.size(); ++i) values[i] = {program.sizes[i], -1, -1};
@@ -22,12 +23,12 @@ runtime::MemoryPlan planned(const runtime::Program& program) {
   return runtime::plan_memory(values);
 }
 
-/// Samples that go through all steps together. Activations of several megabytes would move through memory between the
-/// steps of a whole batch; but weights that serve each sample for less than some flops a byte must be read once for
-/// all.
+/// The number of samples in a group. The activations of a group fit the cache, so that they need not move through
+/// memory between steps. But if a step does little work per byte of its weights, reading the weights costs more than
+/// that: then the whole batch is one group, so that each step reads its weights once.
 Index samples_together(const runtime::Program& program, const runtime::MemoryPlan& memory) {
   constexpr double kLeastFlopsPerByte = 8;
-  constexpr Index kMostActivations = Index{2} << 20;  // 8 MiB of numbers
+  constexpr Index kMostActivations = Index{2} << 20;  // 8 MiB of floats
   for (const auto& step : program.steps)
     if (step.step->flops() < kLeastFlopsPerByte * step.step->weight_bytes()) return std::numeric_limits<Index>::max();
   return std::max<Index>(kMostActivations / std::max<Index>(memory.size, 1), 1);
@@ -35,7 +36,7 @@ Index samples_together(const runtime::Program& program, const runtime::MemoryPla
 
 }  // namespace
 
-/// An arena for the length of one run.
+/// An arena for one run: a kept one or a new one. Kept for later runs afterwards, if there is a free place.
 class Inference::ArenaLease {
  public:
   ArenaLease(const Inference& from, Index size) : from_(from) {
@@ -76,14 +77,9 @@ class Inference::ArenaLease {
   std::unique_ptr<Arena> arena_{};
 };
 
-Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output)
-    : Inference(graph, parameters, output, kernels::convolution_from_environment(),
-                kernels::precision_from_environment()) {}
-
-Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
-                     runtime::Precision precision)
-    : precision_(precision),
-      program_(runtime::compile(graph, parameters, output, convolution, precision)),
+Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options)
+    : precision_(options.precision),
+      program_(runtime::compile(graph, parameters, output, options)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}
 
@@ -99,7 +95,7 @@ Index Inference::arena_size(Index batch) const {
     return memory_.size * samples + scratch;
   };
   if (batch <= group_) return of_group(batch);
-  // Fewer samples may need more scratch memory: blocks of tiles are cut by their number.
+  // Fewer samples may need more scratch memory, because the sizes of blocks depend on the number of samples.
   return std::max(of_group(group_), of_group(batch % group_));
 }
 
@@ -135,18 +131,18 @@ Tensor Inference::run(const std::vector<Tensor>& inputs) const {
         inputs.size());
   check(!inputs.empty() && inputs[0].defined() && inputs[0].rank() >= 1, "[runtime] the first input is empty");
   const Index batch = inputs[0].dim(0);
-  std::vector<const float*> numbers;
+  std::vector<const float*> values;
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     Shape expected = program_.inputs[i];
     expected.insert(expected.begin(), batch);
     check(inputs[i].defined() && inputs[i].shape() == expected, "[runtime] input ", i, " is ",
           inputs[i].defined() ? to_string(inputs[i].shape()) : "empty", ", expected ", to_string(expected));
-    numbers.push_back(inputs[i].data<float>());
+    values.push_back(inputs[i].data<float>());
   }
   Shape shape = program_.output_shape;
   shape.insert(shape.begin(), batch);
   Tensor output = Tensor::empty(shape);
-  if (batch > 0) run(numbers, batch, output.data<float>());
+  if (batch > 0) run(values, batch, output.data<float>());
   return output;
 }
 
@@ -168,16 +164,16 @@ std::vector<StepReport> Inference::report(Index batch) const {
     const auto size = [&](runtime::ValueId id) {
       return static_cast<double>(program_.sizes[static_cast<std::size_t>(id)]);
     };
-    double numbers = size(step.output);
-    for (const auto id : step.inputs) numbers += size(id);
+    double elements = size(step.output);
+    for (const auto id : step.inputs) elements += size(id);
     reports.push_back({.layer = step.layer,
                        .kernel = step.step->kernel(),
                        .flops = step.step->flops() * samples,
-                       .bytes = 4 * numbers * samples + step.step->weight_bytes() * groups,
+                       .bytes = 4 * elements * samples + step.step->weight_bytes() * groups,
                        .milliseconds = std::numeric_limits<double>::infinity()});
   }
   const ArenaLease arena(*this, arena_size(batch));
-  // Long enough to outlast the threads of OpenBLAS, which spin for some 30 ms after the process has started.
+  // At least 200 ms, because the threads of OpenBLAS spin for about 30 ms after the process has started.
   const auto begin = Clock::now();
   for (int repeat = 0; repeat < 5 || Clock::now() - begin < std::chrono::milliseconds(200); ++repeat)
     for (std::size_t i = 0; i < program_.steps.size(); ++i) {

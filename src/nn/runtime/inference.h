@@ -12,25 +12,24 @@
 
 namespace svnet {
 
-/// What one step of a compiled graph is, for people.
+/// What one step of a compiled graph does and costs, for reports.
 struct StepReport {
   std::string layer, kernel;
-  double flops = 0;         ///< of one batch, as the layer defines them
-  double bytes = 0;         ///< of weights read, inputs and outputs
-  double milliseconds = 0;  ///< the fastest of several runs
+  double flops = 0;         ///< of one batch, by the definition of the layer
+  double bytes = 0;         ///< of weights, inputs and outputs
+  double milliseconds = 0;  ///< shortest of several runs
 };
 
-/// A graph compiled for inference, f32 in and out: kernels chosen, batch norms and activations fused, weights laid out
-/// for the kernels, memory planned. It keeps no reference to graph and parameters. Safe to share between threads: each
-/// run borrows an arena, and nothing is allocated once there are as many as runs at once, up to 64. The same bits for
-/// any number of threads; a sample's result does not depend on the others of its batch. A batch goes through all steps
-/// in groups of samples whose activations stay in cache, unless some layer reads its weights for little work a sample.
+/// A graph compiled for inference: kernels are chosen, batch norms and activations fused, weights laid out for the
+/// kernels, memory planned. Inputs and output are f32. It keeps no reference to the graph and the parameters.
+/// Several threads may share it. Each run borrows an arena of memory; up to 64 arenas are kept, so that later runs
+/// allocate nothing. The bits depend neither on the number of threads nor on the other samples of the batch.
+/// A batch is run in groups of samples whose activations fit the cache, unless a layer has much more weights than work
+/// per sample.
 class Inference {
  public:
-  /// With the kernels and the precision that the environment asks for. Throws Error for parameters that are not f32.
-  Inference(const Graph& graph, const Parameters& parameters, NodeId output);
-  Inference(const Graph& graph, const Parameters& parameters, NodeId output, runtime::Convolution convolution,
-            runtime::Precision precision = runtime::Precision::f32);
+  /// Throws Error if parameters are not f32, or the machine lacks the precision.
+  Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options = {});
 
   ~Inference();
   Inference(const Inference&) = delete;
@@ -41,14 +40,14 @@ class Inference {
 
   runtime::Precision precision() const { return precision_; }
 
-  /// The output of a batch; inputs in the graph's order, f32. Throws Error where shapes do not fit.
+  /// The output of a batch. Inputs are f32, in the graph's order. Throws Error if shapes do not fit.
   Tensor run(const std::vector<Tensor>& inputs) const;
-  /// The same from and into the caller's memory; inputs may be read up to 64 bytes past their end.
+  /// The same from and into the caller's memory. Requires that 64 bytes after the end of each input can be read.
   void run(std::span<const float* const> inputs, Index batch, float* output) const;
 
-  /// Numbers of activations and scratch memory that a batch needs.
+  /// Number of floats of activations and scratch memory that a batch needs.
   Index arena_size(Index batch) const;
-  /// Every step, timed on zeros: what it takes for one group, times the groups of a batch.
+  /// Every step with its time on zeros: the time of one group times the number of groups of a batch.
   std::vector<StepReport> report(Index batch) const;
 
  private:
@@ -56,7 +55,7 @@ class Inference {
   struct Arena {
     AlignedFloats memory{};
     Index size = 0;
-    std::vector<const float*> inputs{}, group_inputs{};  // of a step, of the graph
+    std::vector<const float*> inputs{}, group_inputs{};  // of the current step, of the graph
   };
   class ArenaLease;
 
@@ -67,7 +66,7 @@ class Inference {
   runtime::Program program_;
   runtime::MemoryPlan memory_;
   Index group_;
-  // Without a lock, which fork() would copy while another thread holds it.
+  // Arenas that no run uses. Without a lock: fork() could copy it while another thread holds it.
   mutable std::array<std::atomic<Arena*>, kKeptArenas> free_{};
 };
 

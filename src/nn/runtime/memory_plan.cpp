@@ -6,7 +6,7 @@
 namespace svnet::runtime {
 
 MemoryPlan plan_memory(const std::vector<Lifetime>& values) {
-  // A kernel may read one vector past the end of a value: what it finds there must not be somebody else's at work.
+  // A kernel may read one vector past the end of a value. No other thread may be writing there.
   const auto rounded = [&](std::size_t i) { return values[i].size == 0 ? 0 : (values[i].size + 15) / 16 * 16 + 16; };
   std::vector<std::size_t> order(values.size()), placed;
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -5,10 +5,10 @@
 
 namespace svnet::runtime {
 
-/// A value that must stay in memory from the step that writes it to the last that reads it.
+/// A value stays in memory from the step that writes it to the last step that reads it.
 struct Lifetime {
   Index size = 0;
-  int first = 0, last = 0;  // steps, both included
+  int first = 0, last = 0;  // indices of these steps
 };
 
 struct MemoryPlan {
@@ -16,8 +16,8 @@ struct MemoryPlan {
   Index size = 0;  // of the whole arena
 };
 
-/// Places values so that no two that live at once overlap: largest first, each at the lowest free offset. Offsets and
-/// sizes are multiples of 16 numbers, and 16 numbers behind each value belong to it.
+/// Places values so that no two overlap that are in memory during the same step: the largest first, each at the lowest
+/// free offset. Offsets and sizes count floats and are multiples of 16. Each value also owns the 16 floats after it.
 MemoryPlan plan_memory(const std::vector<Lifetime>& values);
 
 }  // namespace svnet::runtime

@@ -12,48 +12,49 @@
 
 namespace svnet::runtime {
 
-/// What a step reads and writes: batches of images or rows in the arena. All may be read one vector past their end.
+/// What a step reads and writes: batches of images or rows. All may be read one vector past their end.
 struct StepBuffers {
   std::span<const float* const> inputs;
   float* output;
-  float* scratch;  ///< as many numbers as Step::scratch asks for
+  float* scratch;  ///< Step::scratch floats
   Index batch;
   Parallel& parallel;
 };
 
-/// One kernel call of a compiled graph, with its weights in the kernel's own layout. Immutable: any number of threads
-/// may run it, each with its own buffers.
+/// One kernel call of a compiled graph, with its weights in the layout of the kernel. Immutable: several threads may
+/// run it at once, each with its own buffers.
 class Step {
  public:
   virtual ~Step() = default;
   virtual void run(const StepBuffers& buffers) const = 0;
+  /// Number of floats of scratch memory that a run needs.
   virtual Index scratch(Index batch, int threads) const {
     static_cast<void>(batch), static_cast<void>(threads);
     return 0;
   }
-  virtual std::string kernel() const = 0;     ///< "winograd 3x3", for people
-  virtual double flops() const { return 0; }  ///< of one sample, as the layer defines them
+  virtual std::string kernel() const = 0;     ///< its name in reports: "winograd 3x3"
+  virtual double flops() const { return 0; }  ///< of one sample, by the definition of the layer
   virtual double weight_bytes() const { return 0; }
 };
 
 using StepPointer = std::unique_ptr<const Step>;
 
-/// What convolutions do to their output in the same pass: y = clamp(y + bias + residual), then, if asked for, 2×2
-/// pooling.
+/// What a convolution also does to its output: y = clamp(y + bias + residual), then 2×2 pooling if `pool`.
 struct ConvolutionFinish {
   kernels::Clamp clamp = kernels::Clamp::none;
   bool residual = false;  ///< the step's second input
-  bool pool = false;      ///< Winograd's own: the largest of every 2×2
+  bool pool = false;      ///< Winograd only: the maximum of every 2×2
 };
 
-/// Windows are those of a batch of 1. bias may be an empty handle.
-/// Winograd, which is f32, where it fits and `winograd` says so.
+// Windows are those of a batch of 1. bias may be an empty handle.
+
+/// `winograd`: by Winograd's algorithm in f32. Requires that it fits the window (winograd_fits).
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
                              const ConvolutionFinish& finish, bool winograd, kernels::Precision precision);
 StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
                        kernels::Precision precision);
 
-/// The depthwise half of a separable convolution, which is f32, and what surrounds it.
+/// The depthwise half of a separable convolution, in f32: clamp(depthwise(x or relu(x)) + bias).
 struct DepthwisePart {
   Tensor kernel, bias{};
   bool relu_input = false;
@@ -61,7 +62,7 @@ struct DepthwisePart {
 };
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
                            const Tensor& bias, const ConvolutionFinish& finish, kernels::Precision precision);
-/// A 1×1 convolution that makes the image of a separable one: clamp(x · kernel + bias).
+/// A 1×1 convolution whose output a separable one reads: clamp(x · kernel + bias).
 struct ExpansionPart {
   Tensor kernel, bias{};
   kernels::Clamp clamp = kernels::Clamp::none;
@@ -69,7 +70,7 @@ struct ExpansionPart {
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
                                     const ConvolutionFinish& finish, kernels::Precision precision);
-/// The largest of each window of `pool` over a separable convolution's result, clamped before.
+/// A separable convolution, a clamp, and the maximum of each window of `pool`.
 StepPointer separable_max_pool_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
                                     const Tensor& bias, kernels::Clamp clamp, const Window& pool,
                                     kernels::Precision precision);
@@ -82,7 +83,7 @@ StepPointer add_step(Index size, std::size_t inputs, kernels::Clamp clamp);
 StepPointer scale_shift_step(Index rows, const Tensor& scale, const Tensor& shift, kernels::Clamp clamp);
 /// On rows of `columns` elements, over which softmax is taken.
 StepPointer activation_step(Index rows, Index columns, Activation activation);
-/// Along the last axis.
+/// Joins rows along the last axis.
 StepPointer concat_step(Index rows, std::vector<Index> widths);
 /// A border of zeros around images (H, W, C).
 StepPointer padding_step(Index h, Index w, Index c, const Padding& padding);

@@ -11,7 +11,7 @@ template <>
 inline constexpr auto enum_names<Target> = std::to_array<EnumName<Target>>({{Target::individual, "individual"},
                                                                             {Target::global, "global"}});
 
-/// In which orientations (view/symmetry.h) SV-net sees the top image when it scores a view: as taken, or all of
+/// In which symmetries (view/symmetry.h) SV-net sees the top image when it scores a view: as taken, or all of
 /// them, averaged.
 enum class Orientations { as_taken, all };
 template <>

@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -14,9 +13,8 @@
 
 namespace svnet {
 
-/// What svnet-train and svnet-eval are told: the keys of a configuration file, with their defaults. Their meanings and
-/// ranges stand in one table in config_table.cpp; configs/paper.yaml shows them all. Backbones are names of the
-/// registry.
+/// The values of the keys of a configuration file, with their defaults. config_table.cpp says what each key means and
+/// accepts; configs/paper.yaml shows all of them. A backbone is a name of models/registry.h.
 struct Config {
   struct Dataset {
     std::filesystem::path root;
@@ -29,7 +27,7 @@ struct Config {
     std::string backbone = "xception";
     std::string layer;
     Clustering clustering = Clustering::ward;
-    Index min_samples = 0;  ///< of the three stop rules at least one is above 0
+    Index min_samples = 0;  ///< at least one of the three stop rules must be above 0
     Index problems = 0;
     double target_error = 0;
     Index min_categories = 3, max_categories = 0;
@@ -60,7 +58,7 @@ struct Config {
   };
   struct Evaluation {
     Index problems = 10000;
-    std::vector<std::string> pipelines;  ///< empty only before parse_config has read the rest
+    std::vector<std::string> pipelines;  ///< as pipeline_name.h reads them; parse_config fills an empty list
     std::vector<std::string> selectors;  ///< names of train/selectors.h; empty: the default ones of each table
     NmiAverage nmi = NmiAverage::arithmetic;
   };
@@ -73,36 +71,5 @@ struct Config {
   Training training;
   Evaluation evaluation;
 };
-
-/// One of evaluation.pipelines: "mobilenet_v2_ward" is features of mobilenet_v2 clustered by ward.
-struct PipelineName {
-  std::string backbone;
-  Clustering clustering;
-};
-/// Throws Error, beginning with `where`, unless `name` is BACKBONE_CLUSTERING.
-PipelineName parse_pipeline(const std::string& name, const std::string& where);
-
-/// Reads a configuration. `source` is what errors call the text; relative paths in it are taken from `folder`, those in
-/// `overrides` ("key=value", applied in order) from the working directory. Throws Error with file, line and key.
-Config parse_config(const std::string& text, const std::string& source, const std::filesystem::path& folder,
-                    std::span<const std::string> overrides = {});
-
-/// Reads the file: the only function here that touches the disk.
-Config read_config(const std::filesystem::path& file, std::span<const std::string> overrides = {});
-
-/// Every key with its value: parse_config reads back an equal configuration.
-std::string to_yaml(const Config& config);
-
-/// The same, each key below a comment with its meaning and what it accepts; paths are written relative to `folder`.
-std::string documented_yaml(const Config& config, const std::filesystem::path& folder);
-
-/// One key of the configuration, as help shows it.
-struct ConfigKey {
-  std::string name;           ///< "scores.min_samples"
-  std::string help;           ///< its meaning
-  std::string accepts;        ///< "a whole number >= 0"
-  std::string default_value;  ///< as YAML
-};
-std::vector<ConfigKey> config_keys();
 
 }  // namespace svnet

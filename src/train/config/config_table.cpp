@@ -1,7 +1,9 @@
-#include "config_table.h"
+#include "train/config/config_table.h"
 
 #include "base/error.h"
 #include "base/text.h"
+#include "semantics/score_sums.h"
+#include "train/config/pipeline_name.h"
 
 namespace svnet {
 namespace {
@@ -9,33 +11,53 @@ namespace {
 using Names = std::vector<std::string>;
 using std::filesystem::path;
 
-BoundKey whole(std::string name, Index& field, NumberRange range, std::string help) {
-  return {std::move(name), std::move(help), described(range, true),
+BoundKey whole(Stage stage, std::string name, Index& field, NumberRange range, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          described(range, true),
+          "N",
           [&field, range](const YamlValue& value, const path&) { field = yaml_whole_number(value, range); },
           [&field](const path&) { return std::to_string(field); }};
 }
 
-BoundKey number(std::string name, double& field, NumberRange range, std::string help) {
-  return {std::move(name), std::move(help), described(range, false),
+BoundKey number(Stage stage, std::string name, double& field, NumberRange range, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          described(range, false),
+          "X",
           [&field, range](const YamlValue& value, const path&) { field = yaml_number(value, range); },
           [&field](const path&) { return written_yaml(field); }};
 }
 
-BoundKey text(std::string name, std::string& field, std::string accepts, std::string help) {
-  return {std::move(name), std::move(help), std::move(accepts),
+BoundKey text(Stage stage, std::string name, std::string& field, std::string accepts, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          std::move(accepts),
+          "NAME",
           [&field](const YamlValue& value, const path&) { field = yaml_text(value); },
           [&field](const path&) { return written_yaml(field); }};
 }
 
 template <class Enum>
-BoundKey choice(std::string name, Enum& field, std::string help) {
-  return {std::move(name), std::move(help), described(names_of<Enum>()),
+BoundKey choice(Stage stage, std::string name, Enum& field, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          described(names_of<Enum>()),
+          "{" + joined_with(",", names_of<Enum>()) + "}",
           [&field](const YamlValue& value, const path&) { field = yaml_choice<Enum>(value); },
           [&field](const path&) { return written_yaml(std::string_view(name_of(field))); }};
 }
 
-BoundKey folder_path(std::string name, path& field, std::string accepts, std::string help) {
-  return {std::move(name), std::move(help), std::move(accepts),
+BoundKey folder_path(Stage stage, std::string name, path& field, std::string accepts, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          std::move(accepts),
+          "DIR",
           [&field](const YamlValue& value, const path& folder) {
             const std::string given = yaml_text(value);
             field = given.empty() ? path() : (folder / given).lexically_normal();
@@ -46,14 +68,18 @@ BoundKey folder_path(std::string name, path& field, std::string accepts, std::st
           }};
 }
 
-BoundKey names(std::string name, Names& field, std::string help) {
-  return {std::move(name), std::move(help), "a list of names",
+BoundKey names(Stage stage, std::string name, Names& field, std::string help) {
+  return {std::move(name),
+          stage,
+          std::move(help),
+          "a list of names",
+          "NAMES",
           [&field](const YamlValue& value, const path&) { field = yaml_texts(value); },
           [&field](const path&) { return written_yaml(field); }};
 }
 
-BoundKey pipelines(std::string name, Names& field, std::string help) {
-  BoundKey key = names(std::move(name), field, std::move(help));
+BoundKey pipelines(Stage stage, std::string name, Names& field, std::string help) {
+  BoundKey key = names(stage, std::move(name), field, std::move(help));
   key.accepts = "a list of BACKBONE_CLUSTERING";
   key.read = [&field](const YamlValue& value, const path&) {
     field = yaml_texts(value);
@@ -66,79 +92,87 @@ BoundKey pipelines(std::string name, Names& field, std::string help) {
 
 std::vector<BoundKey> bound_keys(Config& c) {
   constexpr NumberRange kNotNegative{.min = 0}, kPositive{.min = 0, .min_open = true}, kFromOne{.min = 1};
-  constexpr NumberRange kProblems{.min = 0, .max = 0x1p32};  // ScoreSums::kMostProblems
+  constexpr NumberRange kProblems{.min = 0, .max = static_cast<double>(ScoreSums::kMostProblems)};
   constexpr NumberRange kBelowOne{.min = 0, .max = 1, .max_open = true};
   const std::string backbone = "a backbone's name", layer = "a layer's name, or \"\"";
   return {
-      whole("seed", c.seed, kNotNegative, "Everything random is drawn from this seed."),
+      whole(Stage::scores, "seed", c.seed, kNotNegative, "Everything random is drawn from this seed."),
 
-      folder_path("dataset.root", c.dataset.root, "a folder, required",
+      folder_path(Stage::features, "dataset.root", c.dataset.root, "a folder, required",
                   "Folder of the images, CATEGORY/OBJECT/POSE/PHI_THETA.png (or .jpg, .jpeg, .webp)."),
-      names("dataset.held_out", c.dataset.held_out, "Categories that take part neither in the scores nor in training."),
+      names(Stage::scores, "dataset.held_out", c.dataset.held_out,
+            "Categories that take part neither in the scores nor in training."),
 
-      folder_path("weights.folder", c.weights.folder, "a folder, or \"\"",
+      folder_path(Stage::features, "weights.folder", c.weights.folder, "a folder, or \"\"",
                   "Folder of pretrained weights. Empty: built-in weights, or random ones."),
 
-      text("scores.backbone", c.scores.backbone, backbone, "Backbone of the features that are clustered."),
-      text("scores.layer", c.scores.layer, layer, "Layer whose output is clustered. Empty: the pooled output."),
-      choice("scores.clustering", c.scores.clustering, "Agglomerative clustering by its linkage, or k-means."),
-      whole("scores.min_samples", c.scores.min_samples, kProblems,
+      text(Stage::features, "scores.backbone", c.scores.backbone, backbone,
+           "Backbone of the features that are clustered."),
+      text(Stage::features, "scores.layer", c.scores.layer, layer,
+           "Layer whose output is clustered. Empty: the pooled output."),
+      choice(Stage::scores, "scores.clustering", c.scores.clustering,
+             "Agglomerative clustering by its linkage, or k-means."),
+      whole(Stage::scores, "scores.min_samples", c.scores.min_samples, kProblems,
             "Stop once every view has been in at least N problems. 0: off."),
-      whole("scores.problems", c.scores.problems, kProblems, "Stop after N problems. 0: off."),
-      number("scores.target_error", c.scores.target_error, kNotNegative,
+      whole(Stage::scores, "scores.problems", c.scores.problems, kProblems, "Stop after N problems. 0: off."),
+      number(Stage::scores, "scores.target_error", c.scores.target_error, kNotNegative,
              "Stop once the standard error of every score is at most this. 0: off."),
-      whole("scores.min_categories", c.scores.min_categories, {.min = 2},
+      whole(Stage::scores, "scores.min_categories", c.scores.min_categories, {.min = 2},
             "Fewest categories in a problem; all of them if there are fewer."),
-      whole("scores.max_categories", c.scores.max_categories, kNotNegative, "Most categories in a problem. 0: all."),
-      whole("scores.min_objects", c.scores.min_objects, kFromOne, "Fewest objects of a category in a problem."),
-      whole("scores.max_objects", c.scores.max_objects, kNotNegative,
+      whole(Stage::scores, "scores.max_categories", c.scores.max_categories, kNotNegative,
+            "Most categories in a problem. 0: all."),
+      whole(Stage::scores, "scores.min_objects", c.scores.min_objects, kFromOne,
+            "Fewest objects of a category in a problem."),
+      whole(Stage::scores, "scores.max_objects", c.scores.max_objects, kNotNegative,
             "Most objects of a category in a problem. 0: all."),
-      choice("scores.singletons", c.scores.singletons,
+      choice(Stage::scores, "scores.singletons", c.scores.singletons,
              "A singleton scores zero, or is left out of the mean of individual scores."),
 
-      text("sv_net.backbone", c.sv_net.backbone, backbone, "Backbone of the features of the top image."),
-      text("sv_net.layer", c.sv_net.layer, layer, "Layer that feeds the head. Empty: the pooled output."),
-      whole("sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
-      number("sv_net.dropout", c.sv_net.dropout, kBelowOne, "Fraction of the activations that dropout sets to zero."),
-      choice("sv_net.angles", c.sv_net.angles, "Encoding of the camera pose for the head."),
-      choice("sv_net.target", c.sv_net.target, "Score that SV-net learns."),
-      choice("sv_net.orientations", c.sv_net.orientations,
+      text(Stage::features, "sv_net.backbone", c.sv_net.backbone, backbone,
+           "Backbone of the features of the top image."),
+      text(Stage::features, "sv_net.layer", c.sv_net.layer, layer,
+           "Layer that feeds the head. Empty: the pooled output."),
+      whole(Stage::model, "sv_net.width", c.sv_net.width, kFromOne, "Width of the head's fully connected layers."),
+      number(Stage::model, "sv_net.dropout", c.sv_net.dropout, kBelowOne,
+             "Fraction of the activations that dropout sets to zero."),
+      choice(Stage::model, "sv_net.angles", c.sv_net.angles, "Encoding of the camera pose for the head."),
+      choice(Stage::model, "sv_net.target", c.sv_net.target, "Score that SV-net learns."),
+      choice(Stage::model, "sv_net.orientations", c.sv_net.orientations,
              "Score the top image as taken, or average over its eight orientations."),
 
-      whole("training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
-      whole("training.batch_size", c.training.batch_size, {.min = 2}, "Examples in a step."),
-      number("training.learning_rate", c.training.learning_rate, kPositive, "Learning rate at the start."),
-      choice("training.optimizer", c.training.optimizer, "Optimizer."),
-      number("training.momentum", c.training.momentum, kBelowOne, "Momentum; sgd only."),
-      choice("training.schedule", c.training.schedule, "How the learning rate changes over the epochs."),
-      whole("training.step_epochs", c.training.step_epochs, kFromOne, "Epochs between two steps; schedule step only."),
-      number("training.step_factor", c.training.step_factor, {.min = 0, .max = 1, .min_open = true},
+      whole(Stage::model, "training.epochs", c.training.epochs, kFromOne, "Passes over the training examples."),
+      whole(Stage::model, "training.batch_size", c.training.batch_size, {.min = 2}, "Examples in a step."),
+      number(Stage::model, "training.learning_rate", c.training.learning_rate, kPositive,
+             "Learning rate at the start."),
+      choice(Stage::model, "training.optimizer", c.training.optimizer, "Optimizer."),
+      number(Stage::model, "training.momentum", c.training.momentum, kBelowOne, "Momentum; sgd only."),
+      choice(Stage::model, "training.schedule", c.training.schedule, "How the learning rate changes over the epochs."),
+      whole(Stage::model, "training.step_epochs", c.training.step_epochs, kFromOne,
+            "Epochs between two steps; schedule step only."),
+      number(Stage::model, "training.step_factor", c.training.step_factor, {.min = 0, .max = 1, .min_open = true},
              "The learning rate is multiplied by this at each step; schedule step only."),
-      whole("training.validation_categories", c.training.validation_categories, kNotNegative,
+      whole(Stage::model, "training.validation_categories", c.training.validation_categories, kNotNegative,
             "Training categories, drawn at random, that choose the best checkpoint. 0: none."),
-      choice("training.fine_tune", c.training.fine_tune,
+      choice(Stage::model, "training.fine_tune", c.training.fine_tune,
              "Part of sv_net.backbone that is trained together with the head."),
-      choice("training.augmentation", c.training.augmentation,
+      choice(Stage::model, "training.augmentation", c.training.augmentation,
              "turns: train on each top image in its eight orientations."),
 
-      whole("evaluation.problems", c.evaluation.problems, kFromOne,
+      whole(Stage::evaluation, "evaluation.problems", c.evaluation.problems, kFromOne,
             "Number of problems that each table averages over."),
-      pipelines("evaluation.pipelines", c.evaluation.pipelines,
+      pipelines(Stage::evaluation, "evaluation.pipelines", c.evaluation.pipelines,
                 "Pipelines of the tables. Empty: only the pipeline of the scores."),
-      names("evaluation.selectors", c.evaluation.selectors,
+      names(Stage::evaluation, "evaluation.selectors", c.evaluation.selectors,
             "Selectors of the tables. Empty: the default ones of each table; svnet-eval --help lists all."),
-      choice("evaluation.nmi", c.evaluation.nmi, "Mean that normalises NMI. The paper's tables use geometric."),
+      choice(Stage::evaluation, "evaluation.nmi", c.evaluation.nmi,
+             "Mean that normalises NMI. The paper's tables use geometric."),
   };
 }
 
-PipelineName parse_pipeline(const std::string& name, const std::string& where) {
-  const auto at = name.rfind('_');
-  check(at != std::string::npos && at > 0, where, ": '", name,
-        "' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: ",
-        joined_with(", ", names_of<Clustering>()));
-  const std::string clustering = name.substr(at + 1);
-  check_choice(where + ": " + name, clustering, names_of<Clustering>());
-  return {name.substr(0, at), *find_enum<Clustering>(clustering)};
+BoundKey bound_key(Config& config, const std::string& name) {
+  for (const BoundKey& key : bound_keys(config))
+    if (key.name == name) return key;
+  fail("[config] there is no key '", name, "'");
 }
 
 }  // namespace svnet

@@ -5,22 +5,28 @@
 #include <vector>
 
 #include "train/config/config.h"
+#include "train/config/stage.h"
 #include "train/config/strict_yaml.h"
 
 namespace svnet {
 
 /// One key bound to its field of a Config: the only declaration of the key.
 struct BoundKey {
-  std::string name;     ///< "scores.min_samples"
-  std::string help;     ///< one sentence
-  std::string accepts;  ///< "a whole number >= 0"
-  /// Sets the field; relative paths are taken from `folder`.
+  std::string name;        ///< "scores.min_samples"
+  Stage stage;             ///< the first stage whose result depends on the key; see fingerprint.h
+  std::string help;        ///< one sentence
+  std::string accepts;     ///< "a whole number >= 0"
+  std::string value_name;  ///< how a command's help shows the value: "N", "{zero,skip}"
+  /// Sets the field; relative paths are taken from `folder`. Throws Error that begins with value.where().
   std::function<void(const YamlValue& value, const std::filesystem::path& folder)> read;
-  /// The field as YAML; paths are written relative to `folder` where it is not empty.
+  /// The field as YAML; paths are written relative to `folder` if it is not empty.
   std::function<std::string(const std::filesystem::path& folder)> write;
 };
 
 /// All keys, section by section, bound to `config`, which must outlive them.
 std::vector<BoundKey> bound_keys(Config& config);
+
+/// The key of that name. Requires that there is one.
+BoundKey bound_key(Config& config, const std::string& name);
 
 }  // namespace svnet

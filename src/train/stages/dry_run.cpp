@@ -78,15 +78,16 @@ class ScratchFolder {
 
 }  // namespace
 
-void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages) {
+void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages,
+             const InferenceOptions& inference) {
   Config small = config;
   small.scores.problems = 100;
   small.scores.min_samples = 0;
   small.scores.target_error = 0;
   small.training.epochs = 1;
   const ScratchFolder folder;
-  const Run run =
-      make_run(small, sample_of(dataset, std::max<Index>(2, config.scores.min_objects)), folder.path(), messages);
+  const Run run = make_run(small, sample_of(dataset, std::max<Index>(2, config.scores.min_objects)), folder.path(),
+                           messages, SingleProcess::shared(), inference);
   write_config(run);
   FeaturesStage features(run);
   const Scores scores = scores_stage(run, features);

@@ -5,6 +5,7 @@
 
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
+#include "train/config/pipeline_name.h"
 #include "train/random_problems.h"
 #include "train/stages/held_out_scores.h"
 

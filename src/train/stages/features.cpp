@@ -8,7 +8,8 @@ const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const
   const std::string key = name + "/" + layer;
   const auto found = backbones_.find(key);
   if (found != backbones_.end()) return found->second;
-  return backbones_.emplace(key, backbone_from_folder(name, layer, run_.config.weights.folder, run_.seed()))
+  return backbones_
+      .emplace(key, backbone_from_folder(name, layer, run_.config.weights.folder, run_.seed(), run_.inference))
       .first->second;
 }
 

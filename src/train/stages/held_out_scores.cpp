@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "train/random_problems.h"
-#include "train/stages/fingerprints.h"
+#include "train/stages/options.h"
 
 namespace svnet {
 

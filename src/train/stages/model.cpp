@@ -7,8 +7,9 @@
 #include "io/files/atomic_file.h"
 #include "io/models/checkpoint.h"
 #include "models/trained_graph.h"
+#include "train/config/fingerprint.h"
 #include "train/epoch_order.h"
-#include "train/stages/fingerprints.h"
+#include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/trained_from.h"
 #include "train/trainer.h"
@@ -56,9 +57,10 @@ std::unique_ptr<ViewInputs> training_inputs(const Run& run, FeaturesStage& featu
   if (std::holds_alternative<InputLayer>(graph.node(from).layer))
     return std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(), nullptr,
                                            PictureInputs::Options{.orientations = orientations});
-  auto inputs = std::make_unique<PictureInputs>(
-      run.dataset, backbone.preprocessing(), std::make_shared<Inference>(graph, backbone.parameters(), from),
-      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
+  auto inputs =
+      std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(),
+                                      std::make_shared<Inference>(graph, backbone.parameters(), from, run.inference),
+                                      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
   std::vector<Index> top_views;
   for (const auto& pose : run.dataset.poses)
     if (!run.held_out[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
@@ -96,13 +98,14 @@ std::optional<Checkpoint> resumed_checkpoint(const Run& run, const CheckpointFil
 void train_into(Model& model, const Run& run, const Graph& graph, const TrainingSet& training,
                 const TrainingSet* validation, Resume resume) {
   TrainerOptions options = trainer_options(run.config, model.input_fingerprint);
+  options.convolution = run.inference.convolution;
   options.schedule = learning_rate_schedule(run.config, batch_count(options.batch_size, training.size()));
   Trainer trainer(graph, training, validation, options, run.communicator);
   const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
   trainer.train(
       from ? std::move(*from)
-           : trainer.beginning(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
+           : trainer.initial_state(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
         if (!run.communicator.is_root()) return;
         if (is_best) write_checkpoint(files.best, state);

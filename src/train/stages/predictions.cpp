@@ -14,17 +14,18 @@ std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features,
   const Config& config = run.config;
   if (config.training.fine_tune == FineTune::none && model.symmetries == 1)
     return std::make_unique<FeatureInputs>(run.dataset, features.features(config.sv_net.backbone, config.sv_net.layer));
-  return std::make_unique<PictureInputs>(run.dataset, model.preprocessing,
-                                         std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
-                                                                     model.backbone_graph.find(model.backbone_output)),
-                                         PictureInputs::Options{.orientations = model.symmetries, .flat = true});
+  return std::make_unique<PictureInputs>(
+      run.dataset, model.preprocessing,
+      std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
+                                  model.backbone_graph.find(model.backbone_output), run.inference),
+      PictureInputs::Options{.orientations = model.symmetries, .flat = true});
 }
 
 }  // namespace
 
 std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_stage, const Model& model) {
   const std::unique_ptr<ViewInputs> inputs = head_inputs(run, features_stage, model);
-  const ScoreHead head(model);
+  const ScoreHead head(model, run.inference);
   const Index dimension = head.feature_count();
   const auto pose_count = static_cast<Index>(run.dataset.poses.size());
   std::vector<double> predicted;

@@ -7,8 +7,9 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "semantics/semantic_scores.h"
+#include "train/config/fingerprint.h"
 #include "train/random_problems.h"
-#include "train/stages/fingerprints.h"
+#include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
 
 namespace svnet {
@@ -22,11 +23,11 @@ void take_snapshot(const std::filesystem::path& path, const std::string& fingerp
   check(snapshot.input_fingerprint == fingerprint, path.string(),
         ": a snapshot of other scores (other features, options or seed); repeat the command that made it, or leave out "
         "--resume");
-  const auto numbers = sums.numbers();
+  const auto values = sums.values();
   const auto views = static_cast<Index>(sums.views.size());
-  check(snapshot.views == views && snapshot.sums.size() == numbers.size(), path.string(), ": dataset 'sums': has ",
-        snapshot.sums.size(), " numbers of ", snapshot.views, " views, expected ", numbers.size(), " of ", views);
-  std::copy(snapshot.sums.begin(), snapshot.sums.end(), numbers.begin());
+  check(snapshot.views == views && snapshot.sums.size() == values.size(), path.string(), ": dataset 'sums': has ",
+        snapshot.sums.size(), " numbers of ", snapshot.views, " views, expected ", values.size(), " of ", views);
+  std::copy(snapshot.sums.begin(), snapshot.sums.end(), values.begin());
   sums.problems = static_cast<std::uint64_t>(snapshot.problems);
 }
 
@@ -43,7 +44,7 @@ ScoreSums first_sums(const std::filesystem::path& path, const std::string& finge
     }
   sums.problems = options.communicator.broadcast(sums.problems);
   if (sums.problems == 0) return sums;
-  options.communicator.all_reduce(sums.numbers());
+  options.communicator.all_reduce(sums.values());
   if (messages.line) messages.line(joined("resumed after ", sums.problems, " problems"));
   return sums;
 }
@@ -54,13 +55,13 @@ class Snapshots {
   Snapshots(const std::filesystem::path& path, double seconds, const std::string& fingerprint)
       : path_(path), seconds_(seconds), fingerprint_(fingerprint), last_(Clock::now()) {}
 
-  void offer(const ScoreSums& sums) {
+  void write_if_due(const ScoreSums& sums) {
     if (path_.empty() || std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
-    const auto numbers = sums.numbers();
+    const auto values = sums.values();
     write_scores_snapshot(path_, {fingerprint_,
                                   static_cast<Index>(sums.problems),
                                   static_cast<Index>(sums.views.size()),
-                                  {numbers.begin(), numbers.end()}});
+                                  {values.begin(), values.end()}});
     last_ = Clock::now();
   }
 
@@ -90,7 +91,7 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
   Snapshots snapshots(how.communicator.is_root() ? snapshot : std::filesystem::path(), how.snapshot_seconds,
                       fingerprint);
   continue_scores(distances, problems, options, Parallel::shared(), how.communicator, sums,
-                  {&messages, [&](const ScoreSums& so_far) { snapshots.offer(so_far); }});
+                  {&messages, [&](const ScoreSums& so_far) { snapshots.write_if_due(so_far); }});
   SemanticScores made = scores_from(sums);
 
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),

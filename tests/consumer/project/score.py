@@ -1,4 +1,4 @@
-"""score.py MODEL PICTURE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the number of the best."""
+"""score.py MODEL PICTURE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best."""
 
 import sys
 

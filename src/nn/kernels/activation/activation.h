@@ -84,7 +84,8 @@ struct Sigmoid {
   }
 };
 
-/// relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 and at 3 is 0.
+/// relu6(x + 3) / 6, as in MobileNetV3 (Howard et al., 2019) and Keras 3; Keras 2 has another function of this name.
+/// The slope at −3 and at 3 is 0.
 struct HardSigmoid {
   template <class T>
   static T value(T x) {
@@ -96,7 +97,7 @@ struct HardSigmoid {
   }
 };
 
-/// x · relu6(x + 3) / 6 (Howard et al., "Searching for MobileNetV3", 2019). The slope at −3 is 0, at 3 it is 1.
+/// x · relu6(x + 3) / 6, as in MobileNetV3 (Howard et al., 2019). The slope at −3 is 0, at 3 it is 1.
 struct HardSwish {
   template <class T>
   static T value(T x) {

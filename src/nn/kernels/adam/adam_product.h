@@ -8,9 +8,9 @@ struct AdamProductShape {
   Index m, c, k;
 };
 
-/// The gradient is made in tiles that stay in cache, each followed at once by its step: per weight, 12 bytes are read
-/// and 12 written, and no gradient of the parameter's size exists. The sums are in order of M, for any number of
-/// threads.
+/// The gradient is computed in tiles that stay in cache, and each tile's step follows at once: no gradient of the
+/// parameter's size exists, and each weight costs 12 bytes read and 12 written. Sums are in order of M for any number
+/// of threads.
 void adam_product(Parallel&, const AdamStep&, const AdamProductShape&, const float* x, const float* dy,
                   float* parameter, float* m, float* v);
 

@@ -8,7 +8,7 @@
 namespace svnet::kernels {
 namespace {
 
-/// Output positions per tile: the tile's windows stay near 512 KiB, so that they are still in L2 when they are read.
+/// Output positions per tile: its windows take about 512 KiB and are still in L2 when they are read.
 Index tile_positions(const Conv2dShape& s) {
   const Index row = s.window.kh * s.window.kw * s.window.c;
   return std::clamp<Index>((128 * 1024) / std::max<Index>(row, 1), 16, 512);

@@ -10,7 +10,7 @@ Index depth(const Window& w) { return w.kh * w.kw * w.c; }
 /// Rows of a gathered block are this far apart.
 Index row_stride(const Window& w) { return packed_row_stride(depth(w)); }
 
-/// What a worker gathers.
+/// Floats that a worker gathers.
 Index windows_size(const Window& w) { return packed_block_rows(w.positions(), depth(w)) * row_stride(w) + kPanel; }
 
 Index scratch_per_worker(const Window& w, Precision precision) {
@@ -40,7 +40,7 @@ void gather(const Window& w, const float* x, Index begin, Index end, float* to) 
   }
 }
 
-/// What a convolution works on.
+/// The operands of a convolution.
 struct Job {
   const Window& w;
   const float* x;
@@ -48,7 +48,7 @@ struct Job {
   const PackedFinish& finish;
   float* y;
 
-  /// The output positions from `begin` on; a holds their windows. `windows` is the worker's scratch memory.
+  /// `rows` output positions from `begin` on. a holds their windows; `windows` is the worker's scratch memory.
   void multiply(Index begin, Index rows, const PanelRows& a, float* windows) const {
     PackedFinish here = finish;
     if (here.residual != nullptr) here.residual += begin * weights.n;
@@ -65,10 +65,10 @@ struct Job {
   }
 };
 
-/// Whether rows of output are long enough to serve as the rows of a product each, their windows read where they lie.
+/// Whether output rows are long enough to be a product each, with windows that are read in place.
 bool multiplies_by_rows(const Window& w) { return w.ow >= 48 && depth(w) <= kPackedDepth; }
 
-/// One output row. Windows that reach out of the image are gathered.
+/// One output row. Only windows that reach out of the image are gathered.
 void multiply_row(const Job& job, Index row, float* windows) {
   const Window& w = job.w;
   const Index n = row / w.oh, top = row % w.oh * w.stride_h - w.top;

@@ -5,12 +5,12 @@
 
 namespace svnet::kernels {
 
-/// y (N, OH, OW, K) = finish(x * weights): the weights are those of (KH · KW · C, K). Windows are read where they lie
-/// if rows of output are long, as in first layers, or they are 1×1 of stride 1; otherwise they are gathered block by
-/// block, never whole. scratch holds packed_conv2d_scratch numbers.
+/// y (N, OH, OW, weights.n) = finish(x * weights), where weights is the matrix (KH · KW · C, n). Windows are read in
+/// place if output rows are long, as in first layers, or if they are 1×1 of stride 1. Otherwise a block of them is
+/// gathered at a time. scratch holds packed_conv2d_scratch floats.
 void packed_conv2d(Parallel& parallel, const Window& window, const float* x, const PackedWeights& weights,
                    const PackedFinish& finish, float* y, float* scratch);
-/// Numbers of scratch memory for `threads` threads; 0 where none is needed.
+/// Floats of scratch memory for `threads` threads; may be 0.
 Index packed_conv2d_scratch(const Window& window, int threads, Precision precision = Precision::f32);
 
 }  // namespace svnet::kernels

@@ -29,7 +29,7 @@ SVNET_BF16 inline __m512bh as_pairs(__m512 v) { return reinterpret_cast<__m512bh
 constexpr __mmask16 kAll = 0xffff;
 
 template <int kRows, int kPanels>
-SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, Index panel_stride,
+SVNET_BF16 void multiply_tile(const PanelRows& a, Index depth, const float* panel, Index panel_stride,
                               const TileOutput& out) {
   __m512 sum[kRows][kPanels];
   __mmask16 columns[kPanels];
@@ -42,8 +42,8 @@ SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, I
     for (int p = 0; p < kPanels; ++p)
       sum[r][p] = out.accumulate ? _mm512_maskz_loadu_ps(columns[p], out.c + r * out.stride + p * out.panel_stride)
                                  : _mm512_setzero_ps();
-  for (Index i = 0; i < k; ++i) {
-    __builtin_prefetch(panel + i * kPanel + out.ahead, 0, 2);
+  for (Index i = 0; i < depth; ++i) {
+    __builtin_prefetch(panel + i * kPanel + out.prefetch_distance, 0, 2);
     __m512bh b[kPanels];
     for (int p = 0; p < kPanels; ++p) b[p] = as_pairs(_mm512_load_ps(panel + p * panel_stride + i * kPanel));
 #pragma GCC unroll 14
@@ -61,7 +61,7 @@ SVNET_BF16 void multiply_tile(const PanelRows& a, Index k, const float* panel, I
         __m512 y = _mm512_add_ps(sum[r][p], _mm512_loadu_ps(finish.bias + p * kPanel));
         if (finish.residual != nullptr)
           y = _mm512_add_ps(y, _mm512_loadu_ps(finish.residual + r * finish.residual_stride + p * kPanel));
-        // Of two numbers, one a NaN, the instructions give the second. (Without a mask GCC 12 warns of its own header.)
+        // If one operand is NaN, these instructions return the second. (Without a mask GCC 12 warns of its own header.)
         sum[r][p] = _mm512_maskz_min_ps(kAll, high, _mm512_maskz_max_ps(kAll, low, y));
       }
   }
@@ -82,13 +82,13 @@ constexpr auto kTiles = tile_kernels<kPanels>(std::make_integer_sequence<int, kM
 
 bool machine_has_bf16() { return __builtin_cpu_supports("avx512bf16"); }
 
-SVNET_BF16 void round_to_pairs(Index rows, const PanelRows& a, Index k, float* to, Index stride) {
-  if (k % 2 != 0)
-    for (Index r = 0; r < rows; ++r) to[r * stride + k / 2] = 0;
-  const Index run = a.block_stride == a.run ? k : a.run;
-  for (Index begin = 0; begin < k; begin += run) {
+SVNET_BF16 void round_to_pairs(Index rows, const PanelRows& a, Index depth, float* to, Index stride) {
+  if (depth % 2 != 0)
+    for (Index r = 0; r < rows; ++r) to[r * stride + depth / 2] = 0;
+  const Index run = a.block_stride == a.run ? depth : a.run;
+  for (Index begin = 0; begin < depth; begin += run) {
     const float* block = a.data + begin / run * a.block_stride;
-    const Index count = begin + run < k ? run : k - begin;
+    const Index count = begin + run < depth ? run : depth - begin;
     for (Index r = 0; r < rows; ++r) {
       const float* from = block + r * a.row_stride;
       char* out = reinterpret_cast<char*>(to + r * stride) + 2 * begin;
@@ -99,14 +99,14 @@ SVNET_BF16 void round_to_pairs(Index rows, const PanelRows& a, Index k, float* t
       }
       for (; i < count; i += 16) {
         const auto mask = static_cast<__mmask16>(count - i >= 16 ? 0xffff : (1 << (count - i)) - 1);
-        const __m512 numbers = _mm512_maskz_loadu_ps(mask, from + i);
-        _mm256_mask_storeu_epi16(out + 2 * i, mask, reinterpret_cast<__m256i>(_mm512_cvtneps_pbh(numbers)));
+        const __m512 values = _mm512_maskz_loadu_ps(mask, from + i);
+        _mm256_mask_storeu_epi16(out + 2 * i, mask, reinterpret_cast<__m256i>(_mm512_cvtneps_pbh(values)));
       }
     }
   }
 }
 
-const MultiplyTile* bf16_tiles(int panels) { return panels == 1 ? kTiles<1>.data() : kTiles<2>.data(); }
+TileKernels bf16_tiles() { return {kMostTileRows, kMostTilePanels, kTiles<1>.data(), kTiles<2>.data()}; }
 
 }  // namespace svnet::kernels
 
@@ -116,7 +116,7 @@ namespace svnet::kernels {
 
 bool machine_has_bf16() { return false; }
 void round_to_pairs(Index, const PanelRows&, Index, float*, Index) { assert(false); }
-const MultiplyTile* bf16_tiles(int) { return nullptr; }
+TileKernels bf16_tiles() { return {}; }
 
 }  // namespace svnet::kernels
 #endif

@@ -11,32 +11,33 @@ struct PackedFinish {
   const float* residual = nullptr;  ///< (rows, n), or nullptr
 };
 
-/// Products summed before the sums go to memory: longer runs would push a panel out of L2.
+/// Products that are summed before the sums go to memory: with more, a panel would not stay in L2.
 inline constexpr Index kPackedDepth = 2048;
 
-/// c (rows, n) = finish(a · weights + bias) for the panels [first, last), on the calling thread. c points at row 0,
-/// column 0, rows are n apart. A row's result does not depend on the rows beside it. The residual must allow reading
-/// one vector past its end. k is at most kPackedDepth, or a.run divides that. scratch holds packed_scratch numbers.
+/// c (rows, n) = finish(a (rows, depth) · weights + bias) for the panels [first, last), on the calling thread. c points
+/// at row 0 and column 0, and its rows are n apart. A row's result does not depend on the other rows.
+/// Requires: depth is at most kPackedDepth, or a.run divides kPackedDepth; the residual may be read one vector past its
+/// end; scratch holds packed_scratch floats.
 void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
                      const PackedFinish& finish, float* c, float* scratch = nullptr);
-/// 0 for weights in f32.
-Index packed_scratch(Index rows, Index k, Precision precision);
+/// Returns 0 for f32.
+Index packed_scratch(Index rows, Index depth, Precision precision);
 
-/// The whole product of plain rows a (rows, k), in parallel. scratch holds packed_gemm_scratch numbers.
+/// The whole product of plain rows a (rows, depth), in parallel. scratch holds packed_gemm_scratch floats.
 void packed_gemm(Parallel& parallel, Index rows, const float* a, const PackedWeights& weights,
                  const PackedFinish& finish, float* c, float* scratch = nullptr);
-Index packed_gemm_scratch(Index rows, Index k, Precision precision, int threads);
+Index packed_gemm_scratch(Index rows, Index depth, Precision precision, int threads);
 
-/// Rows that one task multiplies when each costs k products a column: few enough to stay in L2 beside a panel, and even
-/// among tasks.
-Index packed_block_rows(Index rows, Index k);
-/// As many as it ever gives.
-Index packed_most_rows(Index k);
+/// How many of `rows` rows one task multiplies: few enough to stay in L2 beside a panel, and about the same for each
+/// task.
+Index packed_block_rows(Index rows, Index depth);
+/// The largest value that packed_block_rows returns for this depth.
+Index packed_most_rows(Index depth);
 
-/// How far apart the rows of such a block lie that has its own memory: whole vectors, but not whole pages, which would
-/// all share a few lines of the cache.
-inline Index packed_row_stride(Index numbers) {
-  const Index whole = panels(numbers) * kPanel;
+/// The distance between rows of `count` floats in scratch memory: whole vectors, but not whole pages, because rows a
+/// page apart would share a few lines of the cache.
+inline Index packed_row_stride(Index count) {
+  const Index whole = panels(count) * kPanel;
   return whole % 512 == 0 ? whole + kPanel : whole;
 }
 

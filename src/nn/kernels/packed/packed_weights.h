@@ -5,18 +5,19 @@
 
 namespace svnet::kernels {
 
-/// A weight matrix (k, n) and a bias (n) as the packed kernels read them: panels [n / 16][k][16], the bias filled up
-/// with zeros likewise. In bf16 a panel is [⌈k / 2⌉][16] pairs (bf16_tile.h). Immutable once made.
+/// A weight matrix (depth, n) and a bias (n) in the layout of the packed kernels: panels [n / 16][panel_rows][16] and a
+/// bias that is filled up with zeros to whole panels. Immutable after packed_weights.
 struct PackedWeights {
-  Index k = 0, n = 0;
+  Index depth = 0, n = 0;
   Precision precision = Precision::f32;
-  Index depth = 0;  ///< rows of a panel
+  Index panel_rows = 0;  ///< depth in f32, ⌈depth / 2⌉ pairs in bf16 (bf16_tile.h)
   AlignedFloats panels{}, bias{};
 
-  const float* panel(Index i) const { return panels.get() + i * depth * kPanel; }
+  const float* panel(Index i) const { return panels.get() + i * panel_rows * kPanel; }
 };
 
-/// From row-major w; bias may be nullptr, which means zeros.
-PackedWeights packed_weights(Index k, Index n, const float* w, const float* bias, Precision precision = Precision::f32);
+/// w is row-major. bias may be nullptr, which means zeros.
+PackedWeights packed_weights(Index depth, Index n, const float* w, const float* bias,
+                             Precision precision = Precision::f32);
 
 }  // namespace svnet::kernels

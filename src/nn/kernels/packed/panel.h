@@ -3,24 +3,25 @@
 
 namespace svnet::kernels {
 
-/// Columns of a panel. Weights (k, n) are laid out [n / 16][k][16], the last panel filled up with zeros, on every
-/// instruction set: one row of a panel is one cache line.
+/// Columns of a panel. Weights (depth, n) are laid out [n / 16][depth][16] on every instruction set, the last panel
+/// filled up with zeros. One row of a panel is one cache line.
 inline constexpr Index kPanel = 16;
 
 inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
 
-/// Rows and panels that one tile of registers may span; how many it does depends on the instruction set.
+/// Upper bounds of the rows and panels of a register tile. The instruction set decides how many it has.
 inline constexpr int kMostTileRows = 14, kMostTilePanels = 2;
 
-/// The left operand of a product with a panel: number (row, k) lies at
-/// data[k / run · block_stride + row · row_stride + k % run]. Plain rows have block_stride = run.
+/// The left operand (rows, depth) of a product with a panel. Element (row, i) is
+/// data[i / run · block_stride + row · row_stride + i % run]. In plain rows block_stride equals run.
 struct PanelRows {
   const float* data;
   Index row_stride, block_stride;
   Index run = kPanel;
 };
 
-/// What is done to the sums of a tile before they are stored: y = clamp(y + bias + residual, low, high); NaN stays NaN.
+/// What is done to the sums of a tile before they are stored: y = clamp(sum + bias + residual, low, high). NaN stays
+/// NaN.
 struct TileFinish {
   const float* bias;      // of the tile's columns
   const float* residual;  // (rows, columns), or nullptr
@@ -28,20 +29,22 @@ struct TileFinish {
   float low, high;
 };
 
-/// Where a tile goes: its rows are `stride` apart, its panels of 16 columns `panel_stride`, which is 16 where there is
-/// a finish with a residual. With accumulate, what is there is added to.
+/// Where a tile is stored. If finish has a residual, panel_stride must be 16.
 struct TileOutput {
   float* c;
-  Index stride;
-  bool accumulate = false;
+  Index stride;             // between rows
+  bool accumulate = false;  // adds the product to c
   const TileFinish* finish = nullptr;
-  Index panel_stride = kPanel;
-  Index columns = kMostTilePanels * kPanel;  // where the tile has more, what lies behind these stays as it is
-  Index ahead = 0;  // how far behind the panel, in numbers, lies another that is fetched into L2 meanwhile
+  Index panel_stride = kPanel;               // between the panels of a row
+  Index columns = kMostTilePanels * kPanel;  // columns of c; a wider tile writes only these
+  /// Prefetch distance in floats: the tile at panel + prefetch_distance is fetched into L2 during this product. 0:
+  /// none.
+  Index prefetch_distance = 0;
 };
 
-/// One tile: c = finish(a (rows, k) · panels [+ c]); rows and panels are the kernel's own, panels `panel_stride` apart.
-using MultiplyTile = void (*)(const PanelRows& a, Index k, const float* panel, Index panel_stride,
+/// One tile: c = finish(a (rows, depth) · panels [+ c]). Each kernel has its own number of rows and panels; panels are
+/// panel_stride apart.
+using MultiplyTile = void (*)(const PanelRows& a, Index depth, const float* panel, Index panel_stride,
                               const TileOutput& out);
 
 }  // namespace svnet::kernels

@@ -7,33 +7,34 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "nn/kernels/packed/micro_kernel-inl.h"
+#include "nn/kernels/packed/panel_vector-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
-/// Pixels whose sums are kept in registers together: they share the loads of the taps.
-constexpr int kPixels = 4;
-constexpr Index kLanes = kPanel / kVectorsPerPanel;
-/// Channels that are walked together.
+/// Whether there are vectors. Without them the general loops serve every window.
+constexpr bool kHasVectors = HWY_TARGET != HWY_SCALAR;
+/// Neighbouring output pixels whose sums are kept in registers: they share the loads of the taps.
+constexpr int kPixels = kHasVectors ? 4 : 1;
+/// Channels of a row that are computed before the next row is.
 constexpr Index kChannels = 4 * kPanel;
 
-/// The window rows and columns that lie inside the image.
+/// The rows [kh0, kh1) and columns [kw0, kw1) of a window that lie inside the image.
 struct Taps {
   Index kh0, kh1, kw0, kw1;
 };
 
 using PixelSums = PanelVector[kPixels][kVectorsPerPanel];
 
-/// What a clamp leaves.
-struct Bounds {
+/// The bounds of a clamp in every lane.
+struct VectorBounds {
   PanelVector low, high;
 
-  explicit HWY_INLINE Bounds(Clamp clamp) {
-    const auto range = range_of(clamp);
-    low = hn::Set(PanelTag(), range.low);
-    high = hn::Set(PanelTag(), range.high);
+  explicit HWY_INLINE VectorBounds(Clamp clamp) {
+    const auto limits = range_of(clamp);
+    low = hn::Set(PanelTag(), limits.low);
+    high = hn::Set(PanelTag(), limits.high);
   }
 };
 
@@ -44,8 +45,8 @@ HWY_INLINE PanelVector input_vector(const float* x) {
   return kRelu ? at_least(hn::Zero(d), value) : value;
 }
 
-/// Adds the taps of any window to the sums of kCount neighbouring pixels; x at the first pixel's tap (0, 0), which need
-/// not exist.
+/// Adds the taps of any window to the sums of kCount neighbouring pixels. x points at tap (0, 0) of the first pixel,
+/// which may lie outside the image.
 template <int kCount, bool kRelu>
 HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, const float* x, PixelSums& sum) {
   const PanelTag d;
@@ -63,13 +64,13 @@ HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, co
     }
 }
 
-/// kCount neighbouring output pixels, the panels [c0, c1) of channels: any window. x at the first pixel's tap (0, 0),
-/// panels of y `apart` pixels from each other.
+/// The channels [c0, c1) of kCount neighbouring output pixels, for any window. x points at tap (0, 0) of the first
+/// pixel; the panels of y are `apart` pixels apart.
 template <int kCount, bool kRelu>
 HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
                                    Index c0, Index c1, float* y, Index apart) {
   const PanelTag d;
-  const Bounds bounds(weights.clamp);
+  const VectorBounds limits(weights.clamp);
   for (Index c = c0; c < c1; c += kPanel, y += kPanel * apart) {
     PixelSums sum;
     unrolled<kCount>([&](auto p) HWY_ATTR {
@@ -79,29 +80,30 @@ HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const Depth
     add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
     unrolled<kCount>([&](auto p) HWY_ATTR {
       unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-        hn::Store(clamped(sum[p][v], bounds.low, bounds.high), d, y + p * kPanel + v * kLanes);
+        hn::Store(clamped(sum[p][v], limits.low, limits.high), d, y + p * kPanel + v * kLanes);
       });
     });
   }
 }
 
-/// A run of output pixels of a row, where windows are three columns wide and reach at most one column out of the image:
-/// the first one on the left, the last one on the right. One vector of channels; x at the first pixel's tap (0, 0).
+/// A run of neighbouring output pixels of one row, for windows that are three columns wide and reach at most one column
+/// out of the image. x points at tap (0, 0) of the first pixel.
 struct RowRun {
   const float* x;
   Index row_stride, pixel_stride;  // of x
   const float* taps;
   Index tap_stride;
   const float* bias;
-  bool cut_left, cut_right;  // the first and the last pixel's windows
+  /// Whether the window of the first pixel lacks its first column, and that of the last pixel its last column.
+  bool cut_left, cut_right;
 };
 
-enum Cut { kWhole = 0, kCutLeft = 1, kCutRight = 2 };
-
-/// kPixels neighbouring pixels of it: each input is read once for the pixels that share it. w: the taps.
-template <bool kRelu, int kStride, int kRows, int kCut>
-HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, const PanelVector (&w)[kRows][3],
-                              const PanelVector bias, const Bounds& bounds, float* y) {
+/// One vector of channels of kPixels neighbouring pixels, from number `first` of the run on: each input is read once
+/// for all pixels that share it. w holds the taps. Unless kMayBeCut, all windows lie within the image.
+template <bool kRelu, int kStride, int kRows, bool kMayBeCut>
+HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, bool cut_left, bool cut_right,
+                              const PanelVector (&w)[kRows][3], const PanelVector bias, const VectorBounds& limits,
+                              float* y) {
   const PanelTag d;
   constexpr int kColumns = (kPixels - 1) * kStride + 3;
   x += first * kStride * run.pixel_stride;
@@ -110,27 +112,25 @@ HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, co
   unrolled<kPixels>([&](auto p) HWY_ATTR { sum[p] = bias; });
   unrolled<kRows>([&](auto kh) HWY_ATTR {
     unrolled<kColumns>([&](auto j) HWY_ATTR {
-      if constexpr (!((kCut & kCutLeft) != 0 && j == 0) && !((kCut & kCutRight) != 0 && j == kColumns - 1)) {
-        const auto value = input_vector<kRelu>(x + kh * run.row_stride + j * run.pixel_stride);
-        unrolled<3>([&](auto kw) HWY_ATTR {
-          constexpr int from = j - kw, p = from / kStride;
-          if constexpr (from >= 0 && from % kStride == 0 && p < kPixels) sum[p] = hn::MulAdd(value, w[kh][kw], sum[p]);
-        });
-      }
+      if (kMayBeCut && ((j == 0 && cut_left) || (j == kColumns - 1 && cut_right))) return;
+      const auto value = input_vector<kRelu>(x + kh * run.row_stride + j * run.pixel_stride);
+      unrolled<3>([&](auto kw) HWY_ATTR {
+        constexpr int from = j - kw, p = from / kStride;
+        if constexpr (from >= 0 && from % kStride == 0 && p < kPixels) sum[p] = hn::MulAdd(value, w[kh][kw], sum[p]);
+      });
     });
   });
-  unrolled<kPixels>([&](auto p) HWY_ATTR { hn::Store(clamped(sum[p], bounds.low, bounds.high), d, y + p * kPanel); });
+  unrolled<kPixels>([&](auto p) HWY_ATTR { hn::Store(clamped(sum[p], limits.low, limits.high), d, y + p * kPanel); });
 }
 
-/// `count` pixels, at least kPixels, of which kRows rows of taps lie in the image; the panels [c0, c1) of channels. The
-/// run's x, taps and bias are those of channel 0.
+/// The channels [c0, c1) of `count` pixels, at least kPixels, of which kRows rows of taps lie in the image. The run's
+/// x, taps and bias point at channel 0.
 template <bool kRelu, int kStride, int kRows>
-HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c1, Index count, const Bounds& given,
-                                            float* y, Index apart) {
+HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c1, Index count,
+                                            const VectorBounds& given, float* y, Index apart) {
   const PanelTag d;
-  const Bounds bounds = given;
-  // The last few share a run with some that are done already.
-  const Index last = count - kPixels, whole = run.cut_right ? last - 1 : last;
+  const VectorBounds limits = given;
+  const Index last = count - kPixels;
   for (Index c = c0; c < c1; c += kPanel, y += kPanel * apart)
     for (Index v = 0; v < kPanel; v += kLanes) {
       PanelVector w[kRows][3];
@@ -140,26 +140,19 @@ HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c
       });
       const auto bias = hn::Load(d, run.bias + c + v);
       const float* x = run.x + c + v;
-      float* to = y + v;
-      if (last == 0 && run.cut_left && run.cut_right) {
-        three_columns<kRelu, kStride, kRows, kCutLeft | kCutRight>(run, x, 0, w, bias, bounds, to);
-        continue;
+      // The last kPixels may overlap those before them, which are then computed again.
+      for (Index first = 0;; first = HWY_MIN(first + kPixels, last)) {
+        const bool cut_left = run.cut_left && first == 0, cut_right = run.cut_right && first == last;
+        if (HWY_UNLIKELY(cut_left || cut_right))
+          three_columns<kRelu, kStride, kRows, true>(run, x, first, cut_left, cut_right, w, bias, limits, y + v);
+        else
+          three_columns<kRelu, kStride, kRows, false>(run, x, first, false, false, w, bias, limits, y + v);
+        if (first == last) break;
       }
-      Index first = 0;
-      if (run.cut_left) {
-        three_columns<kRelu, kStride, kRows, kCutLeft>(run, x, 0, w, bias, bounds, to);
-        first = kPixels;
-      }
-      for (; first <= whole; first += kPixels)
-        three_columns<kRelu, kStride, kRows, kWhole>(run, x, first, w, bias, bounds, to);
-      if (run.cut_right)
-        three_columns<kRelu, kStride, kRows, kCutRight>(run, x, last, w, bias, bounds, to);
-      else if (first < count)
-        three_columns<kRelu, kStride, kRows, kWhole>(run, x, last, w, bias, bounds, to);
     }
 }
 
-/// By the rows of taps that lie in the image, less one.
+/// [rows - 1]: by the number of rows of taps that lie in the image.
 template <bool kRelu, int kStride>
 constexpr decltype(&row_of_threes<kRelu, kStride, 3>) kRowsOfThrees[] = {
     &row_of_threes<kRelu, kStride, 1>, &row_of_threes<kRelu, kStride, 2>, &row_of_threes<kRelu, kStride, 3>};
@@ -169,14 +162,13 @@ template <bool kRelu>
 HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
                                 float* y) {
   const auto [inner0, inner1] = win.inner_columns();
-  // Rows of windows that reach one column at most out of the image.
+  // How many columns the last window reaches out of the image.
   const Index right = (win.ow - 1) * win.stride_w - win.left + win.kw - win.w;
-  const bool threes =
-      win.kw == 3 && win.kh == 3 && (win.stride_w == 1 || win.stride_w == 2) && win.left <= 1 && right <= 1;
-  const auto& rows_of_threes = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1> : kRowsOfThrees<kRelu, 2>;
-  const Bounds bounds(weights.clamp);
+  const bool threes = kHasVectors && win.kw == 3 && win.kh == 3 && (win.stride_w == 1 || win.stride_w == 2) &&
+                      win.left <= 1 && right <= 1;
+  const VectorBounds limits(weights.clamp);
   const Index apart = end - begin, step = win.stride_w * win.c, tap_stride = panels(win.c) * kPanel;
-  // A few panels of channels together: their part of the rows stays in L1 from one output row to the next.
+  // A few panels of channels at a time: their part of the input rows stays in L1 from one output row to the next.
   for (Index c0 = 0; c0 < win.c; c0 += kChannels) {
     const Index c1 = HWY_MIN(c0 + kChannels, win.c);
     float* to = y + c0 * apart;
@@ -193,13 +185,17 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
                          .taps = weights.taps.get() + taps.kh0 * 3 * tap_stride,
                          .tap_stride = tap_stride,
                          .bias = weights.bias.get(),
-                         .cut_left = start<inner0, .cut_right = stop> inner1};
-        rows_of_threes[taps.kh1 - taps.kh0 - 1](run, c0, c1, stop - start, bounds, to, apart);
+                         .cut_left = (start < inner0),
+                         .cut_right = (stop > inner1)};
+        if constexpr (kHasVectors) {
+          const auto& by_rows = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1> : kRowsOfThrees<kRelu, 2>;
+          by_rows[taps.kh1 - taps.kh0 - 1](run, c0, c1, stop - start, limits, to, apart);
+        }
       } else {
         const Index inside0 = HWY_MAX(start, inner0), inside1 = HWY_MIN(stop, inner1);
         for (Index ow = start; ow < stop;) {
           if (ow >= inside0 && ow < inside1 && inside1 - inside0 >= kPixels) {
-            // The last few share a run with some that are done already.
+            // The last kPixels may overlap those before them.
             const Index first = HWY_MIN(ow, inside1 - kPixels);
             depthwise_pixels<kPixels, kRelu>(win, taps, weights, image_row + first * step, c0, c1, at(first), apart);
             ow = first + kPixels;

@@ -6,26 +6,26 @@
 namespace svnet::kernels {
 
 /// The depthwise half of a separable convolution: taps [KH · KW][C] and bias [C], each row filled up with zeros to
-/// whole panels; what comes before (relu(x)) and after it (clamp). Immutable once made.
+/// whole panels. Immutable after depthwise_taps.
 struct DepthwiseTaps {
   Index channels = 0;
   AlignedFloats taps{}, bias{};
-  bool relu_input = false;
-  Clamp clamp = Clamp::none;
+  bool relu_input = false;    ///< applied to x before the convolution
+  Clamp clamp = Clamp::none;  ///< applied to its result
 };
 
 /// From w (KH, KW, C, 1); bias (C) may be nullptr, which means zeros.
 DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const float* bias);
 
-/// y = finish(clamp(depthwise(relu?(x)) + bias) · pointwise + bias): both convolutions over blocks of positions that
-/// stay in L2, so that what lies between never goes to memory. x must allow reading one vector past its end. scratch
-/// holds separable_scratch numbers.
+/// y = finish(clamp(depthwise(relu?(x)) + bias) · pointwise + bias). Both convolutions run over blocks of positions
+/// that stay in L2, so the intermediate image is never written to memory. Requires that x may be read one vector past
+/// its end. scratch holds separable_scratch floats.
 void separable_conv2d(Parallel& parallel, const Window& window, const float* x, const DepthwiseTaps& depthwise,
                       const PackedWeights& pointwise, const PackedFinish& finish, float* y, float* scratch);
 Index separable_scratch(const Window& window, int threads, Precision precision = Precision::f32);
 
-/// The same for the positions [begin, end) of all outputs, on the calling thread. y and the residual are those of
-/// position begin; scratch is one thread's.
+/// The same for the output positions [begin, end), on the calling thread. y and the residual point at position begin;
+/// scratch is that of one thread.
 void separable_positions(const Window& window, const float* x, const DepthwiseTaps& depthwise,
                          const PackedWeights& pointwise, PackedFinish finish, Index begin, Index end, float* y,
                          float* scratch);

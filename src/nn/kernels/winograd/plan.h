@@ -1,27 +1,29 @@
 #pragma once
 #include <algorithm>
 
-#include "nn/kernels/winograd/winograd.h"
+#include "nn/kernels/packed/panel.h"
+#include "nn/kernels/window.h"
 
 namespace svnet::kernels {
 
-/// Weights of more channel pairs than this are not kept transformed.
+/// Weights are kept transformed up to this many pairs of input and output channels.
 inline constexpr Index kMostTransformed = 128 * 256;
 
+/// A tile is 4×4 outputs of an image.
 struct WinogradTile {
   Index image, row, column;
 };
 
-/// Transformed weights [36][channels][16] of some panels of output channels, points and panels so far apart.
-struct PanelWeights {
-  const float* data;
-  Index point, panel;
+/// Tiles [begin, end) of all.
+struct TileRange {
+  Index begin, end;
+  Index count() const { return end - begin; }
 };
 
-/// How winograd_conv2d cuts its work, and where numbers lie in its scratch memory. It depends on the shape alone.
+/// How winograd_conv2d cuts its work, and the layout of its scratch memory. Depends on the shape alone.
 struct WinogradPlan {
   Window window;
-  Index k;
+  Index k;  ///< output channels
   bool transformed;
   Index tiles_down, tiles_across;
   Index block;  ///< tiles that go through the steps together
@@ -29,8 +31,6 @@ struct WinogradPlan {
 
   enum class Use { by_tiles, by_channels, weight_gradient };
 
-  WinogradPlan(const Window& w, const WinogradWeights& weights)
-      : WinogradPlan(w, weights.k, weights.transformed ? Use::by_tiles : Use::by_channels) {}
   WinogradPlan(const Window& w, Index channels, Use use)
       : window(w),
         k(channels),
@@ -47,8 +47,8 @@ struct WinogradPlan {
     return {i / (tiles_down * tiles_across), i / tiles_across % tiles_down, i % tiles_across};
   }
 
-  // Numbers between two points of a tile, and between two panels of channels. An odd number of cache lines, so that the
-  // 36 points of a tile never share a set of the cache.
+  // Distances in floats between two points of `count` tiles, and between two panels of channels. Points are an odd
+  // number of cache lines apart, so that the 36 points of a tile never share a set of the cache.
   Index input_point(Index count) const { return odd_lines(count); }
   Index input_group(Index count) const { return 36 * input_point(count); }
   Index output_point(Index count) const { return odd_lines(count); }
@@ -69,10 +69,5 @@ struct WinogradPlan {
     return (count + blocks - 1) / blocks;
   }
 };
-
-/// The points of tiles [begin, end) among those of the group [first, last), as [c / 16][36][last - first][16]: the
-/// first step of the forward and of the weight gradient, on the calling thread.
-void winograd_input_points(const WinogradPlan& plan, const float* x, Index first, Index last, Index begin, Index end,
-                           float* points);
 
 }  // namespace svnet::kernels

@@ -7,14 +7,13 @@
 #define SVNET_WINOGRAD_TRANSFORMS_INL_H_
 #endif
 
-#include "nn/kernels/packed/micro_kernel-inl.h"
+#include "nn/kernels/packed/panel_vector-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 
 using V = PanelVector;
-inline constexpr Index kLanes = kPanel / kVectorsPerPanel;
 
 struct Six {
   V v0, v1, v2, v3, v4, v5;

@@ -1,36 +1,29 @@
 #pragma once
 #include "base/parallel.h"
-#include "nn/kernels/epilogue.h"
 #include "nn/kernels/packed/packed_weights.h"
-#include "nn/kernels/window.h"
+#include "nn/kernels/winograd/transforms.h"
 
 namespace svnet::kernels {
 
-// Winograd's F(4×4, 3×3) (Lavin & Gray, 2015): a tile of 4×4 outputs costs 36 products a pair of channels instead of
-// 144.
+// Winograd's F(4×4, 3×3) (Lavin & Gray, 2015): for each pair of input and output channels, a tile of 4×4 outputs costs
+// 36 products instead of 144. C is the number of input channels, K of output channels.
 
 /// Weights of a 3×3 convolution for winograd_conv2d. Immutable once made.
 struct WinogradWeights {
   Index c = 0, k = 0;
-  /// Transformed: points [k / 16][36][c][16]. Otherwise taps [k / 16][c][9][16], a quarter of the memory, which are
-  /// transformed while they are used.
+  /// If true, panels holds points [k / 16][36][c][16]. If false, it holds taps [k / 16][c][9][16], a quarter of the
+  /// memory, and each run of the convolution transforms them.
   bool transformed = false;
   AlignedFloats panels{}, bias{};
 };
 
-/// Whether the window is 3×3 of stride 1 and the channels come in whole panels.
+/// Whether the window is 3×3 of stride 1 and the numbers of channels C and K are multiples of 16.
 bool winograd_fits(const Window& window, Index k);
 
-/// From w (3, 3, C, K) and bias (K) or nullptr; C and K multiples of 16.
+/// From w (3, 3, C, K) and bias (K), which may be nullptr. Requires C and K to be multiples of 16.
 WinogradWeights winograd_weights(Index c, Index k, const float* w, const float* bias);
 
-/// What follows the convolution in the same pass: the clamp, then, if asked for, the largest of every 2×2 outputs.
-struct WinogradFinish {
-  Clamp clamp = Clamp::none;
-  bool pool = false;
-};
-
-/// y (N, OH, OW, K), or (N, OH / 2, OW / 2, K) pooled. scratch holds winograd_scratch numbers.
+/// y is (N, OH, OW, K), or (N, OH / 2, OW / 2, K) with finish.pool. scratch holds winograd_scratch floats.
 void winograd_conv2d(Parallel& parallel, const Window& window, const float* x, const WinogradWeights& weights,
                      const WinogradFinish& finish, float* y, float* scratch);
 Index winograd_scratch(const Window& window, const WinogradWeights& weights, int threads);
@@ -39,8 +32,8 @@ Index winograd_scratch(const Window& window, const WinogradWeights& weights, int
 /// (3, 3, C, K).
 WinogradWeights winograd_flipped_weights(Index c, Index k, const float* w);
 
-/// dw (3, 3, C, K) from x and dy (N, OH, OW, K): the forward's products the other way round, 36 a pair of channels and
-/// tile instead of 144. scratch holds winograd_weight_gradient_scratch numbers.
+/// dw (3, 3, C, K) from x and dy (N, OH, OW, K), again with 36 products instead of 144 for each tile and pair of
+/// channels. scratch holds winograd_weight_gradient_scratch floats.
 void winograd_weight_gradient(Parallel& parallel, const Window& window, Index k, const float* x, const float* dy,
                               float* dw, float* scratch);
 Index winograd_weight_gradient_scratch(const Window& window, Index k);

@@ -1,4 +1,4 @@
-#include "train/config/config.h"
+#include "train/config/config_file.h"
 
 #include <algorithm>
 #include <fstream>
@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "config_table.h"
+#include "train/config/config_table.h"
 #include "train/config/strict_yaml.h"
 
 namespace svnet {
@@ -143,7 +143,8 @@ std::string documented_yaml(const Config& config, const path& folder) { return w
 std::vector<ConfigKey> config_keys() {
   Config config;
   std::vector<ConfigKey> keys;
-  for (const auto& key : bound_keys(config)) keys.push_back({key.name, key.help, key.accepts, key.write({})});
+  for (const auto& key : bound_keys(config))
+    keys.push_back({key.name, key.stage, key.help, key.accepts, key.write({})});
   return keys;
 }
 

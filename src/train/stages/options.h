@@ -7,14 +7,7 @@
 
 namespace svnet {
 
-// Fingerprints of the stages' files, and the options of the stages as a configuration says them.
-
-/// Changes with everything that the scores of these features depend on.
-std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
-
-/// Changes with everything that the model depends on. `features` is the fingerprint of the features that SV-net learns
-/// from, `scores` that of the scores.
-std::string model_fingerprint(const std::string& features, const std::string& scores, const Config& config);
+// The options of the stages as a configuration says them.
 
 /// How problems are drawn, as scores files say it.
 std::string sampler_text(const Config::Scores& config);

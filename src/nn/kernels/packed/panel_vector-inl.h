@@ -1,0 +1,62 @@
+// Vectors of a panel's channels, and what is done to them. Included once for each instruction set by the kernels that
+// work on panels.
+#if defined(SVNET_PANEL_VECTOR_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef SVNET_PANEL_VECTOR_INL_H_
+#undef SVNET_PANEL_VECTOR_INL_H_
+#else
+#define SVNET_PANEL_VECTOR_INL_H_
+#endif
+
+#include <utility>
+
+#include <hwy/highway.h>
+
+#include "nn/kernels/packed/panel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svnet::kernels {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A whole panel in one vector, if the machine has vectors that wide.
+using PanelTag = hn::CappedTag<float, kPanel>;
+using PanelVector = hn::Vec<PanelTag>;
+inline constexpr int kVectorsPerPanel = static_cast<int>(kPanel / hn::MaxLanes(PanelTag()));
+inline constexpr Index kLanes = kPanel / kVectorsPerPanel;
+
+/// Calls body(std::integral_constant<int, i>) for i = 0, …, kCount - 1 without a loop: the compiler knows each i.
+template <class Body, int... i>
+HWY_INLINE void unrolled(Body&& body, std::integer_sequence<int, i...>) {
+  (body(std::integral_constant<int, i>{}), ...);
+}
+template <int kCount, class Body>
+HWY_INLINE void unrolled(Body&& body) {
+  unrolled(body, std::make_integer_sequence<int, kCount>{});
+}
+
+/// Elementwise maximum of low and y; a NaN in y stays.
+template <class V>
+HWY_INLINE V at_least(V low, V y) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Max(low, y);  // if one operand is NaN, the instruction returns the second
+#else
+  return hn::IfThenElse(hn::Lt(y, low), low, y);
+#endif
+}
+
+/// y limited to [low, high]; NaN stays NaN.
+template <class V>
+HWY_INLINE V clamped(V y, V low, V high) {
+#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return hn::Min(high, at_least(low, y));
+#else
+  y = at_least(low, y);
+  return hn::IfThenElse(hn::Gt(y, high), high, y);
+#endif
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace svnet::kernels
+HWY_AFTER_NAMESPACE();
+
+#endif  // per-target include guard

@@ -1,0 +1,20 @@
+#pragma once
+#include <string>
+
+#include "nn/kernels/convolution_choice.h"
+#include "nn/kernels/precision.h"
+
+namespace svnet {
+
+/// How networks are computed. The number of threads is that of Parallel::shared().
+struct InferenceOptions {
+  kernels::Convolution convolution = kernels::Convolution::automatic;
+  kernels::Precision precision = kernels::Precision::f32;
+};
+
+/// What SVNET_CONVOLUTION and SVNET_PRECISION ask for; the defaults if they are unset or empty. A `precision` that is
+/// not empty, f32 or bf16, is taken instead of SVNET_PRECISION. Throws Error for other words, and if the machine has no
+/// products of that precision. For the edges of programs: everything below them takes InferenceOptions.
+InferenceOptions inference_options_from_environment(const std::string& precision = "");
+
+}  // namespace svnet

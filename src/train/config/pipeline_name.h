@@ -1,0 +1,16 @@
+#pragma once
+#include <string>
+
+#include "semantics/clusterer.h"
+
+namespace svnet {
+
+/// One of evaluation.pipelines: "mobilenet_v2_ward" means features of mobilenet_v2, clustered by ward.
+struct PipelineName {
+  std::string backbone;
+  Clustering clustering;
+};
+/// Throws Error, beginning with `where`, unless `name` is BACKBONE_CLUSTERING.
+PipelineName parse_pipeline(const std::string& name, const std::string& where);
+
+}  // namespace svnet
