@@ -175,6 +175,7 @@ struct Scene::Tracer {
   struct Surface {
     Vec3 point, normal, geometric, colour;
     const Material* material;
+    bool metal;
   };
 
   Surface surface(const Hit& hit, const Vec3& origin, const Vec3& direction) const {
@@ -184,6 +185,7 @@ struct Scene::Tracer {
       s.point.z() = 0;
       s.normal = s.geometric = Vec3::UnitZ();
       s.material = &setting.table;
+      s.metal = setting.table.metal;
       s.colour = surface_colour(setting.table, s.point, Vec2::Zero(), {});
       return s;
     }
@@ -197,12 +199,14 @@ struct Scene::Tracer {
     if (s.geometric.dot(direction) > 0) s.geometric = -s.geometric;
     if (s.normal.dot(s.geometric) < 0) s.normal = -s.normal;
     s.material = &mesh->materials[static_cast<std::size_t>(triangle.material)];
-    Vec2 uv = Vec2::Zero();
-    if (!mesh->uv.empty()) {
-      const auto& corner = mesh->uv[hit.triangle];
-      uv = w * corner[0] + hit.u * corner[1] + hit.v * corner[2];
-    }
+    const auto between = [&](const auto& corner) {
+      return (w * corner[0] + hit.u * corner[1] + hit.v * corner[2]).eval();
+    };
+    const Vec2 uv = mesh->uv.empty() ? Vec2(0, 0) : between(mesh->uv[hit.triangle]);
     s.colour = surface_colour(*s.material, to_local * s.point, uv, mesh->pictures);
+    if (!mesh->tints.empty()) s.colour = s.colour.cwiseProduct(between(mesh->tints[hit.triangle]));
+    s.metal = mesh->metal_uv.empty() ? s.material->metal
+                                     : is_metal(*s.material, between(mesh->metal_uv[hit.triangle]), mesh->pictures);
     return s;
   }
 
@@ -242,7 +246,7 @@ struct Scene::Tracer {
     shadowed |= lit < 1 || open < 1;
     const Vec3 mirrored = direction + 2 * cosine * s.normal;
     const float seen = 0.35f + 0.65f * open;
-    if (material.metal) {
+    if (s.metal) {
       const Vec3 tint = s.colour + (Vec3::Ones() - s.colour) * edge;
       return tint.cwiseProduct(0.75f * surroundings(mirrored, material.sharpness) * seen + 0.35f * arriving);
     }
