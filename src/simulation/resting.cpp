@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "simulation/least_rotation.h"
 
 namespace svnet {
 namespace {
@@ -203,7 +204,7 @@ std::vector<RestingPose> resting_poses(const Mesh& mesh, std::size_t exact_point
     const Vector3d down = candidate.normal;
     if (std::any_of(done.begin(), done.end(), [&](const Vector3d& other) { return other.dot(down) > 0.9986; }))
       continue;
-    const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(down, -Vector3d::UnitZ());
+    const Eigen::Quaterniond rotation = least_rotation<double>(down, -Vector3d::UnitZ());
     double height = 0;
     for (const Vector3d& corner : corners) height = std::max(height, corner.dot(down));
     std::vector<Vector2d> support;

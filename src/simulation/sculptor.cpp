@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/least_rotation.h"
+
 namespace svnet {
 namespace {
 
@@ -113,11 +115,10 @@ Part Sculptor::tube(const Path& path, const std::vector<float>& radii, bool loop
     along[i] = (path[after] - path[before]).normalized();
   }
   side[0] = (std::abs(along[0].z()) < 0.9f ? Vec3::UnitZ() : Vec3::UnitX()).cross(along[0]).normalized();
-  for (std::size_t i = 1; i < n; ++i)
-    side[i] = (Eigen::Quaternionf::FromTwoVectors(along[i - 1], along[i]) * side[i - 1]).normalized();
+  for (std::size_t i = 1; i < n; ++i) side[i] = (least_rotation(along[i - 1], along[i]) * side[i - 1]).normalized();
   float twist = 0;
   if (loop) {
-    const Vec3 end = Eigen::Quaternionf::FromTwoVectors(along[n - 1], along[0]) * side[n - 1];
+    const Vec3 end = least_rotation(along[n - 1], along[0]) * side[n - 1];
     twist = std::atan2(end.cross(side[0]).dot(along[0]), end.dot(side[0]));
   }
   std::vector<Path> rings;
