@@ -62,7 +62,7 @@ TEST_CASE("one bad mesh, one without its texture and one in another unit cost el
   CHECK(read_view_dataset(folder.path() / "d").poses.size() == 11);
 }
 
-TEST_CASE("--unit decides for all meshes, and only a collection of nothing fails") {
+TEST_CASE("the option --unit decides for all meshes, and only a collection of nothing fails") {
   const TemporaryFolder folder;
   folder.write("meshes/box/cm.obj", box(8, 6, 5));
   folder.write("meshes/box/m.obj", box(0.08, 0.06, 0.05));
