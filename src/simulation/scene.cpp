@@ -17,7 +17,6 @@ namespace svnet {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Embree's device: one for the process, which builds on the calling thread alone, so that a tree does not depend on
 /// how threads were scheduled.
@@ -167,7 +166,9 @@ struct Scene::Tracer {
                  setting.sky * (0.7f * panel);
     for (const Lamp& lamp : setting.lamps) {
       const float aligned = direction.dot(lamp.place_m.normalized());
-      if (aligned > 0) light += lamp.irradiance * (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * kPi) * 0.35f);
+      if (aligned > 0)
+        light +=
+            lamp.irradiance * (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * std::numbers::pi_v<float>)*0.35f);
     }
     return light;
   }
@@ -221,7 +222,7 @@ struct Scene::Tracer {
     const std::size_t lamps = setting.lamps.size();
     const Lamp& lamp = setting.lamps[sample % lamps];
     const auto [lx, ly] = tangents(lamp.place_m.normalized());
-    const float lamp_radius = lamp.radius_m * std::sqrt(r[0]), lamp_angle = 2 * kPi * r[1];
+    const float lamp_radius = lamp.radius_m * std::sqrt(r[0]), lamp_angle = 2 * std::numbers::pi_v<float> * r[1];
     const Vec3 to_lamp = lamp.place_m + lamp_radius * (std::cos(lamp_angle) * lx + std::sin(lamp_angle) * ly) - s.point;
     const float distance = to_lamp.norm();
     const Vec3 towards = to_lamp / distance;
@@ -234,7 +235,7 @@ struct Scene::Tracer {
     }
     // The room, from a direction drawn with the cosine.
     const auto [tx, ty] = tangents(s.normal);
-    const float around = 2 * kPi * r[3], out = std::sqrt(r[2]);
+    const float around = 2 * std::numbers::pi_v<float> * r[3], out = std::sqrt(r[2]);
     const Vec3 room = out * std::cos(around) * tx + out * std::sin(around) * ty + std::sqrt(1 - r[2]) * s.normal;
     const float open = s.geometric.dot(room) > 0 ? passage(start, room, 0, 0.4f) : 0.0f;
     const Vec3 from_room =

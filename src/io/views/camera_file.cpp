@@ -10,7 +10,7 @@
 namespace svnet {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // for reading too: a second kind of JSON takes seconds to compile
 
 /// The numbers of an object with exactly these keys, and `optional` perhaps.
 std::vector<double> numbers(const json& object, const std::string& where, const std::vector<std::string>& keys,
@@ -61,7 +61,7 @@ CameraFile read_camera(const std::filesystem::path& path) {
 
 std::string camera_json(const CameraFile& camera) {
   const Intrinsics& k = camera.intrinsics;
-  nlohmann::ordered_json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx},
+  json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx},
                                   {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
   if (camera.camera_to_world) {
     const Eigen::Vector3d t = camera.camera_to_world->translation();
