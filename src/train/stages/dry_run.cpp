@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/environment.h"
 #include "base/error.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
@@ -47,10 +48,9 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
   return sample;
 }
 
-std::filesystem::path temporary_folder() try {
-  return std::filesystem::temp_directory_path();
-} catch (const std::filesystem::filesystem_error& error) {
-  fail(error.path1().string(), ": is no folder for temporary files; set TMPDIR to one");
+std::filesystem::path temporary_folder() {
+  const std::string chosen = environment_variable("TMPDIR");
+  return chosen.empty() ? "/tmp" : chosen;
 }
 
 /// A folder of its own under the system's folder for temporary files, which the destructor removes.
@@ -59,9 +59,11 @@ class ScratchFolder {
   ScratchFolder() {
     const auto temporary = temporary_folder();
     std::string name = (temporary / "svnet-dry-run-XXXXXX").string();
-    check(mkdtemp(name.data()) != nullptr, temporary.string(),
-          ": no temporary folder can be made in it: ", std::generic_category().message(errno),
-          "; set TMPDIR to another one");
+    if (mkdtemp(name.data()) == nullptr) {
+      const int error = errno;
+      fail(temporary.string(), ": no temporary folder can be made in it: ", std::generic_category().message(error),
+           "; set TMPDIR to a folder that can be written");
+    }
     path_ = name;
   }
   ~ScratchFolder() {
