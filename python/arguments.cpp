@@ -26,11 +26,41 @@ std::optional<std::invoke_result_t<Convert>> if_it_fits(const Convert& convert) 
   }
 }
 
-/// Converts to an array, of any dtype, strides and byte order.
+bool is_bfloat16(const py::object& given) {
+  return py::hasattr(given, "dtype") && py::str(given.attr("dtype")).cast<std::string>().ends_with("bfloat16");
+}
+
+/// A torch tensor as one that NumPy can read: without gradients, in main memory, bfloat16 as float32. Others as they
+/// are.
+py::object readable_by_numpy(const py::object& given) {
+  for (const char* method : {"detach", "cpu", "float"})
+    if (!py::hasattr(given, method)) return given;
+  const py::object tensor = given.attr("detach")().attr("cpu")();
+  return is_bfloat16(tensor) ? py::object(tensor.attr("float")()) : tensor;
+}
+
+/// Converts to an array, of any dtype, strides and byte order. bfloat16, of which NumPy knows nothing, becomes float32.
 py::array any_array(const char* function, const char* argument, const py::object& given, const char* expected) {
-  const auto array = if_it_fits([&] { return py::array(given); });  // fails for rows of unequal length
+  const auto array = if_it_fits([&] {  // fails for rows of unequal length
+    const py::array as_given(readable_by_numpy(given));
+    return is_bfloat16(as_given) ? py::array(as_given.attr("astype")("float32")) : as_given;
+  });
   check(array.has_value(), "[", function, "] ", argument, " is not an array; expects ", expected);
   return *array;
+}
+
+/// Whether the elements are strings: str or bytes of any length, as NumPy or pandas have them.
+bool is_text(const py::array& array) {
+  const char kind = array.dtype().kind();
+  if (kind != 'O') return kind == 'U' || kind == 'S';
+  const py::list items = array.attr("ravel")().attr("tolist")();
+  return !items.empty() && std::ranges::all_of(items, [](py::handle item) { return py::isinstance<py::str>(item); });
+}
+
+/// The rank of each string among the different ones, in the order of Python.
+py::array ranks_of(const py::array& texts) {
+  const py::object numpy = py::module_::import("numpy");
+  return numpy.attr("unique")(texts, py::arg("return_inverse") = true).cast<py::tuple>()[1].cast<py::array>();
 }
 
 std::string shape_text(const py::array& array) {
@@ -47,9 +77,10 @@ bool is_integer(const py::array& array) {
   return kind == 'i' || kind == 'u' || kind == 'b';
 }
 
-void check_numbers(const char* function, const char* argument, const py::array& array) {
+void check_numbers(const char* function, const char* argument, const py::array& array,
+                   const char* expected = "integers or floats") {
   check(is_integer(array) || array.dtype().kind() == 'f', "[", function, "] ", argument, " has dtype ",
-        dtype_text(array), "; expects integers or floats");
+        dtype_text(array), "; expects ", expected);
 }
 
 /// `subject`: the first words of the message, such as "images have".
@@ -99,9 +130,11 @@ DistanceMatrix GivenFeatures::squared_distances(Parallel& parallel) const {
 }
 
 GivenLabels::GivenLabels(const char* function, const char* argument, const py::object& given) {
-  const py::array array = any_array(function, argument, given, "integers (N)");
-  check_numbers(function, argument, array);
+  py::array array = any_array(function, argument, given, "integers or strings (N)");
+  const bool text = is_text(array);
+  if (!text) check_numbers(function, argument, array, "integers, floats or strings");
   check(array.ndim() == 1, "[", function, "] ", argument, " has shape ", shape_text(array), "; expects (N,)");
+  if (text) array = ranks_of(array);
   if (array.dtype().kind() == 'f') {
     const Array<double> values(array);
     for (py::ssize_t i = 0; i < values.size(); ++i)
@@ -146,6 +179,7 @@ std::vector<CameraPose> camera_poses(const char* function, const py::object& giv
     poses.push_back({angles.at(i, 0), angles.at(i, 1)});
     const std::string problem = pose_problem(poses.back());
     check(problem.empty(), "[", function, "] angles_deg[", i, "]: ", problem);
+    poses.back() = clamped_pose(poses.back());
   }
   return poses;
 }

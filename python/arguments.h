@@ -39,7 +39,7 @@ class GivenFeatures {
   Index rows_, columns_;
 };
 
-/// Labels (N), from any array-like of integers, or of floats that are whole.
+/// Labels (N), from any array-like of integers, of floats that are whole, or of strings, whose order decides.
 class GivenLabels {
  public:
   GivenLabels(const char* function, const char* argument, const pybind11::object& given);

@@ -31,7 +31,7 @@ constexpr const char* kFowlkesMallowsDoc = R"(fowlkes_mallows(true, pred)
 
 Fowlkes-Mallows score TP / sqrt((TP + FP)(TP + FN)) over pairs of items; 0 if TP is 0.
 
-true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in [0, 1].
+true, pred : (N,) arrays of whole numbers or strings, the class and the cluster of each item. Returns a float in [0, 1].
 Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
@@ -40,7 +40,7 @@ constexpr const char* kIndividualDoc = R"(fowlkes_mallows_individual(true, pred)
 
 The Fowlkes-Mallows score of each item over the pairs that contain it; 0/0 counts as 0.
 
-true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns (N,) float64 in [0, 1].
+true, pred : (N,) arrays of whole numbers or strings, the class and the cluster of each item. Returns (N,) float64 in [0, 1].
 Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
@@ -49,7 +49,7 @@ constexpr const char* kMutualDoc = R"(normalized_mutual_info(true, pred, average
 
 Mutual information of two labellings, divided by the mean of their entropies, as scikit-learn defines it.
 
-true, pred : (N,) arrays of whole numbers, the class and the cluster of each item.
+true, pred : (N,) arrays of whole numbers or strings, the class and the cluster of each item.
 average : "arithmetic" or "geometric". Returns a float in [0, 1].
 Raises svnet.Error if lengths or types do not fit, there is no item, or the average is unknown.
 )";
@@ -59,7 +59,7 @@ constexpr const char* kPurityDoc = R"(purity(true, pred)
 
 Fraction of the items whose class is the most frequent one in their cluster.
 
-true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in (0, 1].
+true, pred : (N,) arrays of whole numbers or strings, the class and the cluster of each item. Returns a float in (0, 1].
 Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 
@@ -68,7 +68,7 @@ constexpr const char* kAdjustedRandDoc = R"(adjusted_rand(true, pred)
 
 Rand index adjusted for chance, as scikit-learn defines it.
 
-true, pred : (N,) arrays of whole numbers, the class and the cluster of each item. Returns a float in [-0.5, 1].
+true, pred : (N,) arrays of whole numbers or strings, the class and the cluster of each item. Returns a float in [-0.5, 1].
 Raises svnet.Error if lengths or types do not fit, or there is no item.
 )";
 

@@ -1,9 +1,12 @@
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 
 #include "arguments.h"
 #include "base/error.h"
 #include "bindings.h"
 #include "computing.h"
+#include "io/models/model_file.h"
 #include "predict/predictor.h"
 
 namespace svnet::python {
@@ -17,7 +20,8 @@ constexpr std::size_t kPosesAtOnce = 1024;
 constexpr const char* kClassDoc =
     R"(A trained SV-net with its backbone: predicts the semantic scores of camera poses from a top image.
 
-Made by Model.load. Threads may share one.
+Made by Model.load. Threads may share one. pickle and copy.deepcopy store the contents of its file, so that processes
+that do not share the file system can have it.
 )";
 
 constexpr const char* kLoadDoc = R"(load(path)
@@ -39,7 +43,8 @@ Parameters
 ----------
 image : (H, W, 3) uint8, RGB, the object from above; any size and strides, not preprocessed
 angles_deg : (M, 2) integers or floats, M >= 1: azimuth theta in [-360, 720] (a full turn changes nothing) and elevation
-    phi in [0, 90] of each camera pose, in degrees; (90, 90) is the top view
+    phi in [0, 90] of each camera pose, in degrees; (90, 90) is the top view. An angle that is out of
+    range by at most 1e-4 degrees, by rounding, is taken for the bound
 
 Returns
 -------
@@ -78,22 +83,52 @@ std::vector<float> scores(const Predictor& self, const char* function, const py:
   return result;
 }
 
-std::unique_ptr<Predictor> load(const py::object& given) {
+/// A model and the contents of its file, which are what pickle stores.
+struct LoadedModel {
+  std::string contents;
+  Predictor predictor;
+};
+
+std::unique_ptr<LoadedModel> model_of(const std::string& name, std::string contents) {
+  const Model model = parse_model(name, std::as_bytes(std::span(contents)));
+  return std::unique_ptr<LoadedModel>(
+      new LoadedModel{std::move(contents), Predictor(model, inference_options_from_environment())});
+}
+
+std::unique_ptr<LoadedModel> load(const py::object& given) {
   const std::string file = path("Model.load", "path", given);
   const Computing computing;
-  return std::make_unique<Predictor>(std::filesystem::path(file), inference_options_from_environment());
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(file, error)) static_cast<void>(read_model(file));  // throws what is wrong
+  std::ifstream stream(file, std::ios::binary);
+  std::string contents{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) static_cast<void>(read_model(file));
+  return model_of(file, std::move(contents));
 }
 
-py::array_t<float> score(const Predictor& self, const py::object& image, const py::object& angles_deg) {
-  return array_of(std::span<const float>(scores(self, "Model.score", image, angles_deg)));
+/// For pickle, whose bytes may come from anywhere: they are checked like a file.
+std::unique_ptr<LoadedModel> from_bytes(const py::bytes& given) {
+  std::string contents = given;
+  const Computing computing;
+  return model_of("pickled model", std::move(contents));
 }
 
-py::tuple best_view_of(const Predictor& self, const py::object& image, const py::object& angles_deg) {
-  const std::vector<float> values = scores(self, "Model.best_view", image, angles_deg);
+/// pickle finds the function by its name in the package.
+py::tuple reduced(const LoadedModel& self) {
+  return py::make_tuple(py::module_::import("svnet").attr("_model_from_bytes"),
+                        py::make_tuple(py::bytes(self.contents)));
+}
+
+py::array_t<float> score(const LoadedModel& self, const py::object& image, const py::object& angles_deg) {
+  return array_of(std::span<const float>(scores(self.predictor, "Model.score", image, angles_deg)));
+}
+
+py::tuple best_view_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg) {
+  const std::vector<float> values = scores(self.predictor, "Model.best_view", image, angles_deg);
   return py::make_tuple(best_view(values), array_of(std::span<const float>(values)));
 }
 
-/// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a Predictor, and methods would
+/// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a model, and methods would
 /// use memory that holds none.
 void refuse_new(PyHeapTypeObject* type) {
   type->ht_type.tp_new = [](PyTypeObject*, PyObject*, PyObject*) -> PyObject* {
@@ -105,12 +140,14 @@ void refuse_new(PyHeapTypeObject* type) {
 }  // namespace
 
 void bind_model(py::module_& module) {
-  py::class_<Predictor>(module, "Model", kClassDoc, py::custom_type_setup(refuse_new))
+  py::class_<LoadedModel>(module, "Model", kClassDoc, py::custom_type_setup(refuse_new))
       .def_static("load", load, kLoadDoc, py::arg("path"))
       .def("score", score, kScoreDoc, py::arg("image"), py::arg("angles_deg"))
       .def("best_view", best_view_of, kBestViewDoc, py::arg("image"), py::arg("angles_deg"))
-      .def("__repr__", [](const Predictor& self) {
-        return joined("<svnet.Model, ", self.feature_count(), " features of an image>");
+      .def_static("_from_bytes", from_bytes)
+      .def("__reduce__", reduced)
+      .def("__repr__", [](const LoadedModel& self) {
+        return joined("<svnet.Model, ", self.predictor.feature_count(), " features of an image>");
       });
 }
 

@@ -47,7 +47,11 @@ int main(int argc, char** argv) {
   fs::path source, json;
   std::vector<std::string> selectors;
   Config given;  // by options
+  std::vector<std::string> overrides;
   command.add("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>").required();
+  command.add("--set", overrides, "Sets a key of the configuration; dataset.root=DIR for data that were moved")
+      .value_name("KEY=VALUE")
+      .one_value_per_use();
   const Argument problems =
       add_config_option(command, given, "--problems", "evaluation.problems").shows_default("evaluation.problems");
   command.add("--selectors", selectors, selectors_help())
@@ -61,8 +65,11 @@ int main(int argc, char** argv) {
     if (folder_given)
       check(fs::exists(source / "config.yaml"), source.string(),
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
-    const fs::path config_file = folder_given ? source / "config.yaml" : source;
-    Config config = read_config(config_file);
+    // A run's paths are relative to the folder itself, not to a link to it.
+    const fs::path config_file = folder_given ? fs::canonical(source) / "config.yaml" : source;
+    Config config = read_config(config_file, overrides);
+    check(fs::exists(config.dataset.root), config.dataset.root.string(),
+          ": no such folder; if the data set was moved, say where it is by --set dataset.root=DIR");
     if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = read_view_dataset(config.dataset.root);

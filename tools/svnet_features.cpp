@@ -20,6 +20,15 @@ BackboneWithOrigin source_of(const std::string& backbone, const std::string& lay
   return {std::move(built_in->backbone), built_in->sha256};
 }
 
+/// ", 2 not used (dense, dense_1)"; names at most five.
+std::string unused_text(std::vector<std::string> names) {
+  constexpr std::size_t kMostNames = 5;
+  if (names.empty()) return {};
+  const std::size_t count = names.size();
+  if (count > kMostNames) names.resize(kMostNames);
+  return joined(", ", count, " not used (", printable(joined_with(", ", names)), count > kMostNames ? ", …)" : ")");
+}
+
 std::vector<std::filesystem::path> pictures_of(const ViewDataset& dataset) {
   std::vector<std::filesystem::path> files;
   for (const View& view : dataset.views) files.push_back(dataset.root / view.path);
@@ -54,7 +63,7 @@ int run(int argc, char** argv, Communicator& communicator) {
             source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
           console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                              report.unused.empty() ? "" : joined(", ", report.unused.size(), " not used")));
+                              unused_text(report.unused)));
         const ViewDataset dataset = read_view_dataset(images);
         if (communicator.is_root()) check_can_be_written(output, pictures_of(dataset));
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));

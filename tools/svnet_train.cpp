@@ -45,6 +45,7 @@ int run(int argc, char** argv, Communicator& communicator) {
         }
         if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
         check_run_folder(output, config.dataset.root);
+        const auto lock = communicator.is_root() ? lock_run_folder(output) : nullptr;
         console.log_to(output / "log.txt");
         const Run run = make_run(config, std::move(dataset), output, console.messages(), communicator, inference);
         write_config(run);

@@ -33,6 +33,12 @@ from ._svnet import (
     ward,
 )
 
+
+def _model_from_bytes(contents):
+    """The inverse of Model.__reduce__, which pickle needs."""
+    return Model._from_bytes(contents)
+
+
 __all__ = [
     "Backbone",
     "Error",

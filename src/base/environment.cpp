@@ -1,6 +1,9 @@
 #include "base/environment.h"
 
+#include <algorithm>
 #include <cstdlib>
+
+#include "base/text.h"
 
 namespace svnet {
 
@@ -10,9 +13,16 @@ std::string environment_variable(const char* name) {
 }
 
 bool started_by_launcher() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK"})
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
     if (std::getenv(name) != nullptr) return true;
   return false;
+}
+
+int launched_processes() {
+  int most = 1;
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "MV2_COMM_WORLD_SIZE"})
+    if (int count = 0; parse_number(environment_variable(name), count)) most = std::max(most, count);
+  return most;
 }
 
 }  // namespace svnet

@@ -8,9 +8,9 @@
 //   SVNET_MAX_ISA      the best instruction set that svnet's own kernels may use (base/cpu.h)
 //   SVNET_PRECISION    f32 or bf16 (nn/runtime/inference_options.h)
 //   SVNET_CONVOLUTION  direct or winograd (likewise)
+//   TMPDIR             the folder for temporary files, if not /tmp
 //   TERM               whether progress is drawn as a bar
-//   TMPDIR             the folder for temporary files, for messages: the standard library reads it
-//   OMPI_COMM_WORLD_SIZE, PMIX_RANK, PMI_RANK: set by MPI launchers
+//   OMPI_COMM_WORLD_SIZE, PMIX_RANK, PMI_RANK, PMI_SIZE, MV2_COMM_WORLD_SIZE: set by MPI launchers
 // OPENBLAS_CORETYPE, which chooses the kernels of OpenBLAS, is read by OpenBLAS itself.
 namespace svnet {
 
@@ -20,5 +20,8 @@ std::string environment_variable(const char* name);
 /// Whether an MPI launcher (mpirun, srun --mpi) started this process. Cheaper than to start MPI, which takes a good
 /// part of a second.
 bool started_by_launcher();
+
+/// The number of processes that the launcher says it started; 1 if it does not say.
+int launched_processes();
 
 }  // namespace svnet

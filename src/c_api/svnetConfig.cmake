@@ -1,1 +1,17 @@
+# find_package(svnet [COMPONENTS shared|static]): svnet::svnet is the shared library; with the component "static" there is
+# svnet::svnet_static too. An unknown component that is required means: not found.
+foreach(component IN LISTS svnet_FIND_COMPONENTS)
+  if(component MATCHES "^(shared|static)$")
+    set(svnet_${component}_FOUND TRUE)
+  elseif(svnet_FIND_REQUIRED_${component})
+    set(svnet_FOUND FALSE)
+    set(svnet_NOT_FOUND_MESSAGE "svnet has no component '${component}'; it has: shared, static")
+    return()
+  endif()
+endforeach()
+if(svnet_static_FOUND)
+  include(CMakeFindDependencyMacro)
+  find_dependency(Threads)
+  include(${CMAKE_CURRENT_LIST_DIR}/svnetStaticTargets.cmake)
+endif()
 include(${CMAKE_CURRENT_LIST_DIR}/svnetTargets.cmake)

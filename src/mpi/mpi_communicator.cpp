@@ -2,6 +2,9 @@
 
 #define OMPI_SKIP_MPICXX 1  // leaves out the deprecated C++ interface
 #include <algorithm>
+#include <iostream>
+#include <string>
+#include <string_view>
 
 #include <mpi.h>
 
@@ -10,6 +13,8 @@
 
 namespace svnet {
 namespace {
+
+using namespace std::string_view_literals;
 
 /// An error of MPI ends all processes (MPI_ERRORS_ARE_FATAL, the default).
 class MpiCommunicator : public Communicator {
@@ -50,15 +55,30 @@ class MpiCommunicator : public Communicator {
   int rank_ = 0, size_ = 1;
 };
 
+/// "Open MPI v4.1.4" of the library's longer text.
+std::string library_name() {
+  std::string text(MPI_MAX_LIBRARY_VERSION_STRING, '\0');
+  int length = 0;
+  MPI_Get_library_version(text.data(), &length);
+  return text.substr(0, std::min(text.find_first_of(",\n\0"sv), static_cast<std::size_t>(length)));
+}
+
 }  // namespace
 
-int main_with_communicator(int argc, char** argv, const char*,
+int main_with_communicator(int argc, char** argv, const char* name,
                            int (*run)(int argc, char** argv, Communicator& communicator)) {
   if (!started_by_launcher()) {
     SingleProcess single_process;
     return run(argc, argv, single_process);
   }
   MpiCommunicator communicator;
+  if (const int launched = launched_processes(); communicator.size() == 1 && launched > 1) {
+    std::cerr << name << ": its launcher says that it started " << launched << " processes, but " << library_name()
+              << ", which this was built with, sees one, so that each would do the whole work; start it by the mpirun of "
+                 "that MPI, or as one process"
+              << std::endl;
+    return 1;
+  }
   const int status = run(argc, argv, communicator);
   if (status != 0 && communicator.size() > 1) MPI_Abort(MPI_COMM_WORLD, status);
   return status;

@@ -79,7 +79,7 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
 }
 
 void write_config(const Run& run) {
-  if (run.communicator.is_root()) write_atomically(run.folder / "config.yaml", to_yaml(run.config));
+  if (run.communicator.is_root()) write_atomically(run.folder / "config.yaml", to_yaml(run.config, run.folder));
 }
 
 }  // namespace svnet

@@ -57,4 +57,14 @@ void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
           ": a run would take its place, but no run was here, there is no config.yaml; give another folder");
 }
 
+std::unique_ptr<FileLock> lock_run_folder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  check(!error, folder.string(), ": cannot make this folder: ", error.message());
+  auto lock = std::make_unique<FileLock>(folder / "log.txt");
+  check(lock->held(), folder.string(),
+        ": another svnet-train is at work in this run folder; wait until it ends, or give another folder by --output");
+  return lock;
+}
+
 }  // namespace svnet

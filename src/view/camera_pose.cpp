@@ -1,5 +1,7 @@
 #include "view/camera_pose.h"
 
+#include <algorithm>
+#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
@@ -7,17 +9,30 @@
 namespace svnet {
 namespace {
 
+constexpr double kLowestTheta_deg = -360, kHighestTheta_deg = 720, kLowestPhi_deg = 0, kHighestPhi_deg = 90;
+
+/// All digits that the number needs: "90.0002", not "90".
+std::string exact(double number) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+}
+
 std::string angle_problem(const char* name, double angle_deg, double lowest_deg, double highest_deg) {
   if (!std::isfinite(angle_deg)) return joined(name, " ", angle_deg, " is not finite");
-  if (angle_deg >= lowest_deg && angle_deg <= highest_deg) return "";
-  return joined(name, " ", angle_deg, " is outside [", lowest_deg, ", ", highest_deg, "] degrees");
+  if (angle_deg >= lowest_deg - kAngleTolerance_deg && angle_deg <= highest_deg + kAngleTolerance_deg) return "";
+  return joined(name, " ", exact(angle_deg), " is outside [", lowest_deg, ", ", highest_deg, "] degrees");
 }
 
 }  // namespace
 
 std::string pose_problem(const CameraPose& pose) {
-  const std::string theta = angle_problem("theta", pose.theta_deg, -360, 720);
-  return theta.empty() ? angle_problem("phi", pose.phi_deg, 0, 90) : theta;
+  const std::string theta = angle_problem("theta", pose.theta_deg, kLowestTheta_deg, kHighestTheta_deg);
+  return theta.empty() ? angle_problem("phi", pose.phi_deg, kLowestPhi_deg, kHighestPhi_deg) : theta;
+}
+
+CameraPose clamped_pose(const CameraPose& pose) {
+  return {std::clamp(pose.theta_deg, kLowestTheta_deg, kHighestTheta_deg),
+          std::clamp(pose.phi_deg, kLowestPhi_deg, kHighestPhi_deg)};
 }
 
 }  // namespace svnet

@@ -11,7 +11,15 @@ struct CameraPose {
   bool operator==(const CameraPose&) const = default;
 };
 
-/// What is wrong with the angles, such as "phi 95 is outside [0, 90] degrees"; empty if they are valid.
+/// How far an angle may be out of range, in degrees: conversions to float32 and to radians and back round that much.
+constexpr double kAngleTolerance_deg = 1e-4;
+
+/// What is wrong with the angles, such as "phi 95 is outside [0, 90] degrees"; empty if they are valid, or out of range
+/// by no more than the tolerance.
 std::string pose_problem(const CameraPose& pose);
+
+/// The pose with angles that are out of range by no more than the tolerance taken for the bound. For poses without a
+/// problem.
+CameraPose clamped_pose(const CameraPose& pose);
 
 }  // namespace svnet

@@ -135,6 +135,8 @@ TEST_CASE("wrong arguments are reported and do not change the outputs") {
   float scores[] = {-1, -1};
   std::size_t best = 7;
   refused(svnet_score(m, features.data(), poses, 2, scores), "[predict] pose 1: phi 95 is outside [0, 90] degrees");
+  const double rounded[] = {0, 45, 0, 90.0002};
+  refused(svnet_score(m, features.data(), rounded, 2, scores), "[predict] pose 1: phi 90.0002 is outside [0, 90] degrees");
   refused(svnet_score(m, features.data(), nullptr, 2, scores), "[svnet_score] poses_deg is NULL");
   refused(svnet_score(m, nullptr, poses, 1, scores), "[svnet_score] features is NULL");
   refused(svnet_score(m, features.data(), poses, 1, nullptr), "[svnet_score] scores is NULL");

@@ -124,8 +124,9 @@ TEST_CASE("an outside project finds the installed library after a move, and gets
     if (path.rfind("include/", 0) == 0)
       headers.push_back(path);
     else
-      CHECK((path.rfind(LIBRARY_FOLDER "/libsvnet.so", 0) == 0 || path.rfind(LIBRARY_FOLDER "/cmake/svnet/", 0) == 0));
-    if (entry.path().extension() == ".cmake") {
+      CHECK((path.rfind(LIBRARY_FOLDER "/libsvnet.so", 0) == 0 || path.rfind(LIBRARY_FOLDER "/cmake/svnet/", 0) == 0 ||
+             path == LIBRARY_FOLDER "/libsvnet.a" || path == LIBRARY_FOLDER "/pkgconfig/svnet.pc"));
+    if (entry.path().extension() == ".cmake" || entry.path().extension() == ".pc") {
       CHECK_THAT(file_contents(entry.path()), !Catch::Contains(BUILD_FOLDER));
       CHECK_THAT(file_contents(entry.path()), !Catch::Contains(first.string()));
     }
@@ -156,6 +157,53 @@ TEST_CASE("an outside project finds the installed library after a move, and gets
     std::string address, kind, name;
     if (symbols >> address >> kind >> name) CHECK_THAT(name, Catch::StartsWith("svnet_"));
   }
+}
+
+TEST_CASE("pkg-config, the static library and the components of find_package") {
+  const TemporaryFolder folder;
+  const fs::path first = folder.path() / "first", prefix = folder.path() / "moved";
+  output_of(folder, CMAKE " --install " BUILD_FOLDER " --prefix " + first.string());
+  fs::rename(first, prefix);
+  const std::string model = folder.path() / "model.safetensors", picture = folder.path() / "top.png";
+  write_model(model, small_model());
+  write_png(picture, small_picture(32, 32));
+  const std::string pkg_config =
+      "PKG_CONFIG_PATH=" + prefix.string() + "/" LIBRARY_FOLDER "/pkgconfig pkg-config --print-errors ";
+  CHECK_THAT(output_of(folder, pkg_config + "--modversion svnet"), Catch::StartsWith("0."));
+
+  // By pkg-config, shared and static, in C: no flag but pkg-config's.
+  const std::string compile = C_COMPILER " -std=c99 " SANITIZER_FLAG " " CONSUMER_PROJECT "/score.c -o " + folder.path().string();
+  const std::string library_folder = prefix.string() + "/" LIBRARY_FOLDER;
+  output_of(folder, compile + "/score_shared $(" + pkg_config + "--cflags --libs svnet) -Wl,-rpath," + library_folder);
+  output_of(folder, "mkdir " + folder.path().string() + "/only && cp " + library_folder + "/libsvnet.a " +
+                        folder.path().string() + "/only");
+  output_of(folder, compile + "/score_static -L" + folder.path().string() + "/only $(" + pkg_config +
+                        "--static --cflags --libs svnet)");
+  // By CMake.
+  const auto configure = [&](const std::string& components, const std::string& rest) {
+    const std::string source = "cmake_minimum_required(VERSION 3.25)\nproject(p LANGUAGES C CXX)\nfind_package(svnet " +
+                               components + ")\n" + rest;
+    folder.write("project/CMakeLists.txt", source);
+    return std::string(CMAKE " -S ") + folder.path().string() + "/project -B " + folder.path().string() +
+           "/built -DCMAKE_PREFIX_PATH='" + prefix.string() +
+           "' -DCMAKE_C_COMPILER=" C_COMPILER " -DCMAKE_CXX_COMPILER=" CXX_COMPILER
+           " -DCMAKE_C_FLAGS='" SANITIZER_FLAG "' -DCMAKE_CXX_FLAGS='" SANITIZER_FLAG "'";
+  };
+  output_of(folder, configure("REQUIRED COMPONENTS static", "add_executable(score_cmake " CONSUMER_PROJECT
+                                                            "/score.c)\ntarget_link_libraries(score_cmake PRIVATE "
+                                                            "svnet::svnet_static)\n") +
+                        " && " CMAKE " --build " + folder.path().string() + "/built");
+  const std::string folder_name = folder.path().string();
+  compare(folder, {folder_name + "/score_shared", folder_name + "/score_static", folder_name + "/built/score_cmake"}, model,
+          picture, paper_grid());
+  for (const std::string program : {"/score_static", "/built/score_cmake"})
+    CHECK_THAT(output_of(folder, "ldd " + folder_name + program), !Catch::Contains("libsvnet"));
+  CHECK_THAT(output_of(folder, "ldd " + folder_name + "/score_shared"), Catch::Contains("libsvnet.so"));
+
+  CHECK_THAT(output_of(folder, "! " + configure("REQUIRED COMPONENTS x", "")),
+             Catch::Contains("svnet has no component 'x'; it has: shared, static"));
+  output_of(folder, configure("QUIET COMPONENTS x", "if(svnet_FOUND)\nmessage(FATAL_ERROR found)\nendif()\n"));
+  output_of(folder, configure("REQUIRED COMPONENTS shared OPTIONAL_COMPONENTS x", ""));
 }
 
 // SVNET_ETH80_MODEL may name a model that svnet-train wrote; without it the head has random weights.

@@ -65,3 +65,10 @@ def test_what_is_refused(arguments, message):
     with pytest.raises(svnet.Error, match=message) as error:
         svnet.camera_pose(*arguments)
     assert "\n" not in str(error.value)
+
+
+def test_angles_out_of_range_by_rounding():
+    top = svnet.camera_pose(0, 90, 1, (0, 0, 0))
+    assert svnet.camera_pose(0, np.nextafter(np.float32(90), np.float32(91)), 1, (0, 0, 0)).tobytes() == top.tobytes()
+    with pytest.raises(svnet.Error, match=r"phi 90.0002 is outside \[0, 90\] degrees"):
+        svnet.camera_pose(0, 90.0002, 1, (0, 0, 0))

@@ -187,3 +187,39 @@ def test_interrupt_after_the_distances_ends_an_agglomeration(cluster, random):
             cluster(features, 2)
     finally:
         signal.signal(signal.SIGALRM, before)
+
+
+class Tensor:
+    """What svnet needs of a torch tensor in bfloat16 with gradients: NumPy cannot read it."""
+
+    dtype = "torch.bfloat16"
+
+    def __init__(self, values):
+        self.values = values
+
+    def __array__(self, *arguments, **options):
+        raise TypeError("Got unsupported ScalarType BFloat16")
+
+    def detach(self):
+        return self
+
+    def cpu(self):
+        return self
+
+    def float(self):
+        return self.values.astype("f4")
+
+
+def test_tensors_in_bfloat16():
+    features = np.random.default_rng(6).integers(-8, 8, size=(20, 3)) / 4  # exact in bfloat16
+    expected = svnet.ward(features, 4).tobytes()
+    assert svnet.ward(Tensor(features), 4).tobytes() == expected
+    torch = pytest.importorskip("torch")
+    tensor = torch.tensor(features, dtype=torch.bfloat16, requires_grad=True)
+    assert svnet.ward(tensor, 4).tobytes() == expected
+
+
+def test_arrays_in_bfloat16():
+    ml_dtypes = pytest.importorskip("ml_dtypes")  # of JAX and TensorFlow
+    features = np.random.default_rng(6).integers(-8, 8, size=(20, 3)) / 4
+    assert svnet.ward(features.astype(ml_dtypes.bfloat16), 4).tobytes() == svnet.ward(features, 4).tobytes()

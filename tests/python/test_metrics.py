@@ -62,7 +62,8 @@ def test_labels_may_be_any_whole_numbers(metric):
         ([], [], "there are no labels"),
         ([0, 1], [0], "2.*1"),
         ([[0, 1]], [[0, 1]], r"true has shape \(1, 2\); expects \(N,\)"),
-        ([0, 1], ["a", "b"], "pred has dtype <U1"),
+        ([0, 1], [1j, 0], "pred has dtype complex128; expects integers, floats or strings"),
+        ([0, 1], np.array(["a", None]), "pred has dtype object"),
         ([0, 1], [0, 0.5], r"pred\[1\] is 0.5; expects whole numbers"),
         ([0, float("nan")], [0, 1], r"true\[1\] is nan"),
         ([0, float("inf")], [0, 1], r"true\[1\] is inf"),
@@ -80,3 +81,12 @@ def test_unknown_average():
     for average in (None, 1, b"geometric"):
         with pytest.raises(svnet.Error, match='average is no str; expects "arithmetic" or "geometric"$'):
             svnet.normalized_mutual_info(TRUE, PRED, average)
+
+
+@pytest.mark.parametrize("metric", METRICS)
+def test_labels_may_be_strings(metric):
+    expected = np.asarray(metric(TRUE, PRED)).tobytes()
+    names = np.array(["cup", "apple", "\u00e9toile"])
+    for truth in (names[TRUE], list(names[TRUE]), names[TRUE].astype(object), np.char.encode(names, "utf-8")[TRUE]):
+        assert np.asarray(metric(truth, PRED)).tobytes() == expected
+    assert np.asarray(metric(names[TRUE], np.array(["x", "y"])[PRED])).tobytes() == expected

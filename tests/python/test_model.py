@@ -1,4 +1,7 @@
+import copy
 import os
+import pathlib
+import pickle
 
 import numpy as np
 import pytest
@@ -185,3 +188,22 @@ def test_interrupt_ends_a_long_computation(model, image):
     with pytest.raises(KeyboardInterrupt):
         for _ in range(100000):
             model.score(image, POSES * 20000)
+
+
+def test_pickle_stores_the_file(path, model, image, expected, tmp_path):
+    copied = tmp_path / "model.safetensors"
+    copied.write_bytes(pathlib.Path(path).read_bytes())
+    stored = pickle.dumps(svnet.Model.load(copied))
+    copied.unlink()
+    assert pickle.loads(stored).score(image, POSES).tobytes() == expected.tobytes()
+    assert copy.deepcopy(model).score(image, POSES).tobytes() == expected.tobytes()
+    with pytest.raises(svnet.Error, match="pickled model: "):
+        pickle.loads(stored.replace(b'"backbone', b'"backbome', 1))
+
+
+def test_angles_out_of_range_by_rounding(model, image):
+    inside = model.score(image, [[720, 90], [-360, 0]])
+    for outside in ([[720.00005, 90.0000025], [-360.00005, -0.00005]], np.nextafter(np.float32([[720, 90], [-360, 0]]), np.float32([[800, 91], [-400, -1]]))):
+        assert model.score(image, outside).tobytes() == inside.tobytes()
+    with pytest.raises(svnet.Error, match=r"phi 90.0002 is outside"):
+        model.score(image, [[0, 90.0002]])

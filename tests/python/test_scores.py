@@ -103,3 +103,14 @@ def test_interrupt_ends_a_long_computation(features):
     threading.Timer(0.3, lambda: signal.raise_signal(signal.SIGINT)).start()
     with pytest.raises(KeyboardInterrupt):
         scores(features, problems=2**32)
+
+
+def test_categories_may_be_strings():
+    features = np.random.default_rng(5).normal(size=(24, 4))
+    category, item = np.repeat(np.arange(4), 6), np.tile(np.repeat(np.arange(3), 2), 4)
+    pose = np.tile([0, 1], 12)
+    expected = svnet.semantic_scores(features, category, item, pose, problems=200)
+    names = np.array(["ball", "cone", "cube", "ring"])[category]
+    found = svnet.semantic_scores(features, names, np.array(["a", "b", "c"])[item], pose, problems=200)
+    for key, values in expected.items():
+        assert values.tobytes() == found[key].tobytes(), key

@@ -96,5 +96,7 @@ TEST_CASE("if the output does not need the top, its shapes are checked, but its 
   CHECK_THROWS_WITH(read_backbone("mobilenet", path, top),
                     Catch::Contains("w.h5: dataset '" + top + "/kernel': value 0 is not finite"));
   write_legacy(path, graph, parameters, top, 999);
-  CHECK_THROWS_WITH(read_backbone("mobilenet", path), Catch::Contains("the model expects '" + top + "'"));
+  CHECK_THROWS_WITH(read_backbone("mobilenet", path, top), Catch::Contains("the model expects '" + top + "'"));
+  static_cast<void>(read_backbone("mobilenet", path, "", &report));
+  CHECK(report.unused == std::vector<std::string>{top});
 }

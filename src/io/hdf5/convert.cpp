@@ -1,6 +1,7 @@
 #include "io/hdf5/convert.h"
 
 #include <algorithm>
+#include <bit>
 #include <type_traits>
 #include <utility>
 
@@ -23,6 +24,18 @@ template <class T>
 std::vector<T> read_as(const File& file, const std::string& where, std::uint64_t count, const Reader& read) {
   std::vector<T> values(count);
   if (count > 0) file.done(read(memory_type<T>(), values.data()), where, "cannot be read");
+  return values;
+}
+
+/// bfloat16 is the upper half of float32.
+template <class T>
+std::vector<T> read_opaque_bfloat16(const File& file, const std::string& where, hid_t type, std::uint64_t count,
+                                    const Reader& read) {
+  std::vector<unsigned char> bytes(2 * count);
+  if (count > 0) file.done(read(type, bytes.data()), where, "cannot be read");
+  std::vector<T> values(count);
+  for (std::uint64_t i = 0; i < count; ++i)
+    values[i] = std::bit_cast<float>(std::uint32_t{bytes[2 * i]} << 16 | std::uint32_t{bytes[2 * i + 1]} << 24);
   return values;
 }
 
@@ -79,6 +92,7 @@ std::vector<T> read_numbers(const File& file, const std::string& where, hid_t ty
   const ElementType element = element_type(type);
   const bool integer = element.kind == Kind::signed_integer || element.kind == Kind::unsigned_integer;
   if constexpr (std::is_floating_point_v<T>) {
+    if (element.kind == Kind::opaque_bfloat16) return read_opaque_bfloat16<T>(file, where, type, count, read);
     const bool accepted = element.kind == Kind::real || (integer && std::is_same_v<T, double>);
     if (!accepted) file.fail_at(where, "holds values of type ", element.name, ", not floats");
     return read_as<T>(file, where, count, read);

@@ -8,16 +8,22 @@
 namespace svnet::hdf5 {
 namespace {
 
-/// IEEE 754 binary16, which HDF5 1.10 has no name for: bit positions and bias as h5py stores NumPy's float16.
-bool is_float16(hid_t type) {
-  const Handle half(H5Tcopy(H5T_IEEE_F32LE), H5Tclose);
-  H5Tset_fields(half.id(), 15, 10, 5, 0, 10);
-  H5Tset_size(half.id(), 2);
-  H5Tset_ebias(half.id(), 15);
-  if (H5Tequal(type, half.id()) > 0) return true;
-  H5Tset_order(half.id(), H5T_ORDER_BE);
-  return H5Tequal(type, half.id()) > 0;
+/// Whether the type is a float of 16 bits, in either byte order, with a sign, `exponent_bits` and the rest mantissa.
+/// HDF5 1.10 has no names for them.
+bool is_small_float(hid_t type, std::size_t exponent_bits) {
+  const std::size_t mantissa_bits = 15 - exponent_bits;
+  const Handle small(H5Tcopy(H5T_IEEE_F32LE), H5Tclose);
+  H5Tset_fields(small.id(), 15, mantissa_bits, exponent_bits, 0, mantissa_bits);
+  H5Tset_size(small.id(), 2);
+  H5Tset_ebias(small.id(), (std::size_t{1} << (exponent_bits - 1)) - 1);
+  if (H5Tequal(type, small.id()) > 0) return true;
+  H5Tset_order(small.id(), H5T_ORDER_BE);
+  return H5Tequal(type, small.id()) > 0;
 }
+
+/// IEEE 754 binary16, as h5py stores NumPy's float16.
+bool is_float16(hid_t type) { return is_small_float(type, 5); }
+bool is_bfloat16(hid_t type) { return is_small_float(type, 8); }
 
 bool is_ieee_float(hid_t type, std::size_t size) {
   if (size == 2) return is_float16(type);
@@ -60,6 +66,8 @@ std::string class_name(H5T_class_t type_class) {
 ElementType element_type(hid_t type) {
   const H5T_class_t type_class = H5Tget_class(type);
   const std::size_t size = H5Tget_size(type);
+  if (type_class == H5T_FLOAT && size == 2 && is_bfloat16(type)) return {Kind::real, size, "bfloat16"};
+  if (type_class == H5T_OPAQUE && size == 2) return {Kind::opaque_bfloat16, size, "opaque of 2 bytes"};
   if (type_class == H5T_FLOAT && is_ieee_float(type, size)) return {Kind::real, size, joined("float", 8 * size)};
   if (type_class == H5T_INTEGER && is_whole_integer(type, size)) {
     if (H5Tget_sign(type) == H5T_SGN_NONE) return {Kind::unsigned_integer, size, joined("uint", 8 * size)};

@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "base/text.h"
+#include "io/files/file_format.h"
 #include "io/hdf5/file_state.h"
 
 namespace svnet {
@@ -73,7 +74,7 @@ Hdf5File Hdf5File::open(const fs::path& path) {
   state->size = size_of_regular_file(path);
   const htri_t recognised = H5Fis_hdf5(path.c_str());
   check(recognised >= 0, path.string(), ": cannot be read: ", hdf5::reason());
-  check(recognised > 0, path.string(), ": is not an HDF5 file");
+  if (recognised == 0) fail(path.string(), ": is not an HDF5 file", recognised_instead(path));
   const Handle access = access_properties();
   state->file = Handle(H5Fopen(path.c_str(), H5F_ACC_RDONLY, access.id()), H5Fclose);
   if (state->file.id() < 0) fail(path.string(), ": damaged or incomplete HDF5 file: ", hdf5::reason());

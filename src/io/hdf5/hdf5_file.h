@@ -52,7 +52,7 @@ class Hdf5File {
   std::vector<std::string> members(const std::string& group) const;
 
   std::vector<Index> shape(const std::string& dataset) const;
-  /// T: float (from float16, 32 and 64), double (from any float or integer), std::int64_t and std::uint64_t (from
+  /// T: float (from bfloat16, float16, 32 and 64), double (from any float or integer), std::int64_t and std::uint64_t (from
   /// integers that fit), std::string (from strings of fixed or variable length).
   template <class T>
   Hdf5Array<T> read(const std::string& dataset) const;

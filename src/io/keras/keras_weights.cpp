@@ -1,6 +1,8 @@
 #include "io/keras/keras_weights.h"
 
+#include <map>
 #include <set>
+#include <utility>
 
 #include "base/error.h"
 #include "base/finite.h"
@@ -40,17 +42,46 @@ std::string legacy_root(const Hdf5File& file) {
   return !has_list(file, "", "layer_names") && file.is_group(kModelGroup) ? kModelGroup : "";
 }
 
-KerasLayer legacy_layer(const Hdf5File& file, const std::string& root, const std::string& layer) {
+/// The arrays that `weight_names` of a legacy file's group lists.
+std::vector<KerasArray> legacy_arrays(const Hdf5File& file, const std::string& root, const std::string& layer) {
   const std::string group = path_to(root, layer);
   check(file.is_group(group), file.name(), ": layer '", printable(layer),
         "' is named in layer_names but has no group '", printable(group), "'");
-  KerasLayer weights{.path = layer, .class_name = {}, .layer_name = {}, .arrays = {}};
+  std::vector<KerasArray> arrays;
   for (const std::string& name : list(file, group, "weight_names")) {
     const std::string dataset = path_to(group, name);
     check(file.has(dataset), file.name(), ": dataset '", printable(dataset), "' is named in weight_names but missing");
-    weights.arrays.push_back({name, file.shape(dataset), dataset});
+    arrays.push_back({name, file.shape(dataset), dataset});
   }
-  return weights;
+  return arrays;
+}
+
+/// "conv1" of the array "conv1/kernel:0"; empty if the name has no layer.
+std::string layer_of(const KerasArray& array) {
+  const std::size_t end = array.name.rfind('/');
+  return end == std::string::npos ? std::string() : array.name.substr(0, end);
+}
+
+/// One layer, or, if the names of its arrays have several layers, the layers of a model inside the model.
+std::vector<KerasLayer> legacy_layers_of(const Hdf5File& file, const std::string& root, const std::string& name) {
+  std::vector<KerasArray> arrays = legacy_arrays(file, root, name);
+  std::vector<std::pair<std::string, std::vector<KerasArray>>> parts;
+  std::map<std::string, std::size_t> place;
+  for (KerasArray& array : arrays) {
+    const std::string part = layer_of(array);
+    if (const auto [at, is_new] = place.emplace(part, parts.size()); is_new) parts.push_back({part, {}});
+    parts[place.at(part)].second.push_back(array);
+  }
+  if (parts.size() < 2)
+    return {{.path = name, .model = {}, .class_name = {}, .layer_name = name, .arrays = std::move(arrays)}};
+  std::vector<KerasLayer> layers;
+  for (auto& [part, own_arrays] : parts)
+    layers.push_back({.path = part.starts_with(name + "/") ? part : path_to(name, part),
+                      .model = name,
+                      .class_name = {},
+                      .layer_name = part.substr(part.rfind('/') + 1),
+                      .arrays = std::move(own_arrays)});
+  return layers;
 }
 
 /// The group of a Keras 3 file's layers; empty if there is none.
@@ -70,11 +101,22 @@ std::vector<KerasArray> arrays_of(const Hdf5File& file, const std::string& vars)
   return arrays;
 }
 
+/// "functional" of "functional/layers/conv2d"; empty for a layer of the model itself.
+std::string model_of(const std::string& path) {
+  const std::size_t end = path.rfind('/');
+  if (end == std::string::npos) return {};
+  std::string model = path.substr(0, end);
+  for (const std::string group : kLayerGroups)
+    if (model.ends_with("/" + group)) model.resize(model.size() - group.size() - 1);
+  return model;
+}
+
 KerasLayer keras3_layer(const Hdf5File& file, const std::string& group, const std::string& path) {
   const std::string vars = path_to(group, "vars");
   KerasLayer layer;
   layer.path = path;
   layer.class_name = path.substr(path.rfind('/') + 1);
+  layer.model = model_of(path);
   const std::size_t end = layer.class_name.find_last_not_of("0123456789");
   const std::size_t digits = layer.class_name.size() - (end + 1);
   if (end != std::string::npos && end > 0 && layer.class_name[end] == '_' && digits > 0 && digits < 10) {
@@ -111,11 +153,12 @@ std::vector<KerasLayer> legacy_layers(const Hdf5File& file) {
   std::set<std::string> seen;
   for (const std::string& layer : list(file, root, "layer_names")) {
     check(seen.insert(layer).second, file.name(), ": layer_names has '", printable(layer), "' twice");
-    layers.push_back(legacy_layer(file, root, layer));
+    for (KerasLayer& part : legacy_layers_of(file, root, layer)) layers.push_back(std::move(part));
   }
   if (seen.count(kOwnWeights) == 0 && file.is_group(path_to(root, kOwnWeights)) &&
       has_list(file, path_to(root, kOwnWeights), "weight_names")) {
-    KerasLayer own = legacy_layer(file, root, kOwnWeights);
+    KerasLayer own{.path = kOwnWeights, .model = {}, .class_name = {}, .layer_name = {}, .arrays = {}};
+    own.arrays = legacy_arrays(file, root, kOwnWeights);
     if (!own.arrays.empty()) layers.push_back(std::move(own));
   }
   return layers;

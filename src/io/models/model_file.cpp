@@ -72,8 +72,9 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   file.write(path);
 }
 
-Model read_model(const std::filesystem::path& path) {
-  const TensorFile file = TensorFile::read(path, "model");
+namespace {
+
+Model model_of(const TensorFile& file) {
   const json backbone = file.get<json>("backbone"), head = file.get<json>("head"), angles = file.get<json>("angles"),
              preprocessing = file.get<json>("preprocessing");
   Model model;
@@ -88,13 +89,21 @@ Model read_model(const std::filesystem::path& path) {
     model.symmetries = head.value("orientations", 1);
     check_fits_together(model);
   } catch (const Error& error) {
-    fail(path.string(), ": ", error.what());
+    fail(file.path(), ": ", error.what());
   } catch (const json::exception& error) {
-    fail(path.string(), ": ", error.what());
+    fail(file.path(), ": ", error.what());
   }
   model.backbone_parameters = file.parameters("backbone", model.backbone_graph);
   model.head_parameters = file.parameters("head", model.head);
   return model;
+}
+
+}  // namespace
+
+Model read_model(const std::filesystem::path& path) { return model_of(TensorFile::read(path, "model")); }
+
+Model parse_model(const std::string& name, std::span<const std::byte> contents) {
+  return model_of(TensorFile::parse(name, contents, "model"));
 }
 
 }  // namespace svnet

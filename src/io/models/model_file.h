@@ -1,5 +1,8 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "data/model.h"
 
@@ -15,5 +18,8 @@ void write_model(const std::filesystem::path& path, const Model& model);
 
 /// Throws Error that names the file and says what is wrong.
 Model read_model(const std::filesystem::path& path);
+
+/// The same for the contents of a file in memory. Errors call it `name`.
+Model parse_model(const std::string& name, std::span<const std::byte> contents);
 
 }  // namespace svnet

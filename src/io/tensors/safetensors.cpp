@@ -14,6 +14,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "io/files/atomic_file.h"
+#include "io/files/file_format.h"
 #include "io/tensors/safetensors_header.h"
 
 namespace svnet {
@@ -27,6 +28,13 @@ constexpr std::uint64_t kLengthBytes = 8;
 
 void check_size(const std::string& file, std::size_t size) {
   check(size >= kLengthBytes, file, ": has only ", size, " bytes; is it a safetensors file?");
+}
+
+/// Throws Error if the contents are known to be something else.
+void check_not_another_format(const std::string& file, std::span<const std::byte> bytes) {
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string instead = recognised_instead(text);
+  check(instead.empty(), file, ": is not a safetensors file", instead);
 }
 
 std::uint64_t little_endian(const std::byte* bytes) {
@@ -81,6 +89,7 @@ SafetensorsFile::SafetensorsFile(std::string name, std::span<const std::byte> co
 void SafetensorsFile::parse(std::span<const std::byte> bytes) {
   check_size(path_, bytes.size());
   const std::uint64_t length = little_endian(bytes.data());
+  if (length > bytes.size() - kLengthBytes) check_not_another_format(path_, bytes);
   check(length <= kLargestSafetensorsHeader, path_, ": is not a safetensors file: it declares a header of ", length,
         " bytes");
   check(length <= bytes.size() - kLengthBytes, path_, ": declares a header of ", length, " bytes in a file of ",

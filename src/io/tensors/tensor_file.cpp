@@ -1,5 +1,7 @@
 #include "io/tensors/tensor_file.h"
 
+#include <algorithm>
+#include <bit>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
@@ -21,9 +23,17 @@ void check_finite(const std::string& path, const std::string& name, const Tensor
 }
 
 Tensor copied(const std::string& path, const SafetensorsTensor& from) {
-  check(from.dtype == "F32", path, ": tensor '", from.name, "' is ", from.dtype, ", expected F32");
+  check(from.dtype == "F32" || from.dtype == "BF16", path, ": tensor '", from.name, "' is ", from.dtype,
+        ", expected F32 or BF16");
   Tensor tensor = Tensor::empty(from.shape);
-  std::memcpy(tensor.data<float>(), from.bytes.data(), from.bytes.size());
+  if (from.dtype == "F32") {
+    std::memcpy(tensor.data<float>(), from.bytes.data(), from.bytes.size());
+  } else {  // the upper halves of the floats
+    std::vector<std::uint16_t> halves(from.bytes.size() / 2);
+    std::memcpy(halves.data(), from.bytes.data(), from.bytes.size());
+    std::ranges::transform(halves, tensor.data<float>(),
+                           [](std::uint16_t half) { return std::bit_cast<float>(std::uint32_t{half} << 16); });
+  }
   check_finite(path, from.name, tensor);
   return tensor;
 }

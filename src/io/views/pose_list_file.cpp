@@ -53,7 +53,7 @@ std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
           printable(text), "' does not begin with two numbers, theta and phi in degrees");
     const std::string problem = pose_problem(pose);
     check(problem.empty(), path.string(), ":", number, ": ", problem);
-    poses.push_back(pose);
+    poses.push_back(clamped_pose(pose));
   }
   check(!file.bad(), path.string(), ": cannot be read to its end");
   check(!poses.empty(), path.string(), ": holds no pose; expected the header 'theta,phi' and a line for each pose");

@@ -112,6 +112,17 @@ std::string written(Config config, bool documented, const path& folder) {
   return yaml;
 }
 
+/// `named` relative to `folder` if it lies below one of the two folders above `folder`; else as it is. Links are
+/// followed: a relative path must lead to the same place.
+path movable(const path& named, const path& folder) {
+  if (named.empty()) return named;
+  const path there = std::filesystem::weakly_canonical(named), here = std::filesystem::weakly_canonical(folder);
+  const path relative = there.lexically_relative(here);
+  const auto ups = std::count(relative.begin(), relative.end(), path(".."));
+  const bool near = ups < 2 || (ups == 2 && here.parent_path().parent_path() != here.root_path());
+  return !relative.empty() && near && ups <= 2 ? relative : named;
+}
+
 }  // namespace
 
 Config parse_config(const std::string& text, const std::string& source, const path& folder,
@@ -136,7 +147,12 @@ Config read_config(const path& file, std::span<const std::string> overrides) {
   return parse_config(text.str(), file.string(), std::filesystem::absolute(file).parent_path(), overrides);
 }
 
-std::string to_yaml(const Config& config) { return written(config, false, {}); }
+std::string to_yaml(const Config& config, const path& folder) {
+  Config written_config = config;
+  if (!folder.empty())
+    for (path* named : {&written_config.dataset.root, &written_config.weights.folder}) *named = movable(*named, folder);
+  return written(written_config, false, {});
+}
 
 std::string documented_yaml(const Config& config, const path& folder) { return written(config, true, folder); }
 

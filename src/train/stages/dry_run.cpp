@@ -49,11 +49,8 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
 }
 
 std::filesystem::path temporary_folder() {
-  std::error_code error;
-  const auto folder = std::filesystem::temp_directory_path(error);
-  const std::string given = environment_variable("TMPDIR");
-  check(!error, given.empty() ? "/tmp" : given, ": is no folder for temporary files; set TMPDIR to one");
-  return folder;
+  const std::string chosen = environment_variable("TMPDIR");
+  return chosen.empty() ? "/tmp" : chosen;
 }
 
 /// A folder of its own under the system's folder for temporary files, which the destructor removes.
@@ -62,9 +59,11 @@ class ScratchFolder {
   ScratchFolder() {
     const auto temporary = temporary_folder();
     std::string name = (temporary / "svnet-dry-run-XXXXXX").string();
-    check(mkdtemp(name.data()) != nullptr, temporary.string(),
-          ": no temporary folder can be made in it: ", std::generic_category().message(errno),
-          "; set TMPDIR to another one");
+    if (mkdtemp(name.data()) == nullptr) {
+      const int error = errno;
+      fail(temporary.string(), ": no temporary folder can be made in it: ", std::generic_category().message(error),
+           "; set TMPDIR to a folder that can be written");
+    }
     path_ = name;
   }
   ~ScratchFolder() {

@@ -1,0 +1,66 @@
+// Run folders that two processes want, that were moved, and systems where little can be written.
+#include <catch2/catch.hpp>
+
+#include "workplace.h"
+
+using namespace svnet;
+using Catch::Contains;
+
+TEST_CASE("a second svnet-train in a run folder is refused, until the first has ended, if only by a kill") {
+  const Workplace place;
+  // The first is stopped once it holds the folder, and lives until it is killed.
+  const Ran ran = place.run(
+      "svnet-train config.yaml --output run --threads 1 --set training.epochs=100000 >first 2>&1 & first=$!; "
+      "for i in $(seq 600); do grep -q 'epoch 1/' run/log.txt 2>/dev/null && break; sleep 0.1; done; "
+      "svnet-train config.yaml --output run --threads 1 --quiet; echo \"second $?\"; "
+      "svnet-train config.yaml --output other --threads 1 --quiet >/dev/null; echo \"other $?\"; "
+      "kill -KILL $first; wait $first; "
+      "svnet-train config.yaml --output run --threads 1 --quiet >/dev/null; echo \"after $?\"");
+  INFO(ran.out << ran.err);
+  CHECK_THAT(ran.out, Contains("second 1") && Contains("other 0") && Contains("after 0"));
+  CHECK_THAT(ran.err, Contains("svnet-train: run: another svnet-train is at work in this run folder"));
+}
+
+TEST_CASE("a run folder works after it was moved with its data, or without them by --set") {
+  const Workplace place;
+  place.output_of(
+      "mkdir project && cp -r data weights config.yaml project && cd project && "
+      "svnet-train config.yaml --output runs/a --threads 1 --quiet && cd .. && mv project moved");
+  CHECK_THAT(file_contents(place / "moved/runs/a/config.yaml"), Contains("root: ../../data"));
+  CHECK_THAT(place.output_of("svnet-eval moved/runs/a --threads 1 --quiet"), Contains("Held-out categories"));
+  place.output_of("mv moved/data photos; mv moved/runs/a run");
+  const Ran ran = place.run("svnet-eval run --threads 1 --quiet");
+  CHECK(ran.status == 1);
+  CHECK_THAT(ran.err, Contains("no such folder; if the data set was moved, say where it is by --set dataset.root=DIR"));
+  CHECK_THAT(place.output_of("svnet-eval run --threads 1 --quiet --set dataset.root=photos --set weights.folder=weights"),
+             Contains("Held-out categories"));
+}
+
+TEST_CASE("a dry run says which folder it cannot write to, and why") {
+  const Workplace place;
+  const std::string dry = "svnet-train config.yaml --dry-run --quiet --threads 1";
+  for (const auto& [folder, reason] : {std::pair{"/proc", "No such file or directory"},
+                                       {"config.yaml", "Not a directory"},
+                                       {"none", "No such file or directory"}}) {
+    const Ran ran = place.run("TMPDIR=" + std::string(folder) + " " + dry);
+    INFO(ran.err);
+    CHECK(ran.status == 1);
+    CHECK_THAT(ran.err, Contains(std::string(folder) + ": no temporary folder can be made in it: " + reason +
+                                 "; set TMPDIR to a folder that can be written"));
+  }
+  // TMPDIR is used: the folder's time of change says so.
+  place.output_of("mkdir scratch && touch -d 2001-01-01 scratch && TMPDIR=scratch " + dry +
+                  " >/dev/null && test scratch -nt config.yaml && test -z \"$(ls -A scratch)\"");
+}
+
+TEST_CASE("processes of another MPI's launcher are refused, since each would do the whole work") {
+  const Workplace place;
+  for (const char* variables : {"PMI_SIZE=2 PMI_RANK=0", "PMI_SIZE=2", "MV2_COMM_WORLD_SIZE=2"}) {
+    const Ran ran = place.run(std::string(variables) + " svnet-train config.yaml --output run --threads 1 --quiet");
+    INFO(variables << "\n" << ran.err);
+    CHECK(ran.status == 1);
+    CHECK_THAT(ran.err, Contains("svnet-train: its launcher says that it started 2 processes") ||
+                            Contains("svnet-train: started by mpirun or srun, but built without MPI"));
+    CHECK_FALSE(std::filesystem::exists(place / "run"));
+  }
+}
