@@ -38,7 +38,7 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
       const Index size = std::min(kPosesAtOnce, count - begin);
       Tensor repeated = Tensor::empty({size, dimension}), encoded = Tensor::empty({size, angles});
       for (Index i = 0; i < size; ++i) {
-        const CameraPose& pose = poses[static_cast<std::size_t>(begin + i)];
+        const CameraPose pose = without_rounding(poses[static_cast<std::size_t>(begin + i)]);
         // Within [0, 360): a model with plain angles was trained on these only.
         const double theta_deg = symmetric_theta_deg(symmetry, pose.theta_deg);
         std::copy_n(features.data<float>() + symmetry * dimension, dimension, repeated.data<float>() + i * dimension);

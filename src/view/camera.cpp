@@ -46,9 +46,10 @@ Eigen::Vector3d outwards(const CameraPose& pose) {
   return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
 }
 
-Eigen::Isometry3d look_at(const CameraPose& pose, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
-  const std::string problem = pose_problem(pose);
+Eigen::Isometry3d look_at(const CameraPose& given, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
+  const std::string problem = pose_problem(given);
   check(problem.empty(), "[view] ", problem);
+  const CameraPose pose = without_rounding(given);
   check(std::isfinite(radius_m) && radius_m > 0, "[view] the radius is ", radius_m, " m, expected a positive length");
   check(centre_m.allFinite(), "[view] the centre (", centre_m.transpose(), ") is not finite");
   const double theta = pose.theta_deg * std::numbers::pi / 180;

@@ -11,7 +11,14 @@ struct CameraPose {
   bool operator==(const CameraPose&) const = default;
 };
 
-/// What is wrong with the angles, such as "phi 95 is outside [0, 90] degrees"; empty if they are valid.
+/// How far an angle may be out of its range and still mean the bound: rounding of 32-bit floats and of radians in text.
+constexpr double kAngleRounding_deg = 1e-4;
+
+/// The pose with angles that are out of range by rounding alone moved to the bound.
+CameraPose without_rounding(const CameraPose& pose);
+
+/// What is wrong with the angles, such as "phi 95 is outside [0, 90] degrees"; empty if they are valid, up to
+/// rounding.
 std::string pose_problem(const CameraPose& pose);
 
 }  // namespace svnet
