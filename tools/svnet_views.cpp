@@ -107,7 +107,7 @@ void check_outputs(const Options& options) {
   }
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;
-    check_can_be_written(output, others);
+    check_can_be_written(output, others, Streams::allowed);
     others.push_back(output);
   }
 }
@@ -157,6 +157,8 @@ void write_views(const Options& options, Console& console) {
   if (!options.json.empty()) write_atomically(options.json, document.dump(2) + "\n");
   if (!options.plot.empty()) write_png(options.plot, pose_plot(poses, reached));
   for (std::size_t i = 0; i < steps.size(); ++i) write_png(step_file(options, kLocaliseSteps[i]), steps[i]);
+  for (const fs::path& output : {options.csv, options.json, options.plot})
+    if (is_standard_output(output)) return;
   if (options.csv.empty() && options.json.empty()) {
     std::string text = csv_text(views);
     text.pop_back();
@@ -181,10 +183,11 @@ int main(int argc, char** argv) {
                   "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
   Options options;
   command
-      .add("CAMERA", options.camera,
-           "JSON or YAML: width, height, fx, fy, cx, cy in pixels, or a ROS camera_info or RealSense intrinsics without "
-           "distortion; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of the optical frame in the world, z "
-           "upwards)")
+      .add(
+          "CAMERA", options.camera,
+          "JSON or YAML: width, height, fx, fy, cx, cy in pixels, or a ROS camera_info or RealSense intrinsics without "
+          "distortion; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of the optical frame in the world, z "
+          "upwards)")
       .required();
   const Argument centre =
       command.add("--centre", options.centre_m, "The object's geometric centre in the world, metres")
@@ -194,10 +197,9 @@ int main(int argc, char** argv) {
       command.add("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres").positive();
   centre.needs(diagonal);
   diagonal.needs(centre);
-  const Argument background = command
-                                  .add("--background", options.background,
-                                       "The empty table: a picture, and depth as 16-bit PNG or .npy")
-                                  .exactly(2);
+  const Argument background =
+      command.add("--background", options.background, "The empty table: a picture, and depth as 16-bit PNG or .npy")
+          .exactly(2);
   const Argument current = command.add("--current", options.current, "The same with the object").exactly(2);
   background.needs(current).excludes(centre);
   current.needs(background);

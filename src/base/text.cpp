@@ -79,12 +79,6 @@ std::string percent(double share) {
   return text;
 }
 
-std::string shortest_text(double number) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
-  return {text, end};
-}
-
 char printable(char c) {
   if (c == '\t' || c == '\n' || c == '\r') return ' ';
   return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ? '?' : c;

@@ -20,9 +20,6 @@ std::string joined_with(std::string_view separator, std::span<const std::string>
 /// "99.5 %" of a share of 0.995.
 std::string percent(double share);
 
-/// The shortest text that reads back as this number: "95", "90.00000250447816".
-std::string shortest_text(double number);
-
 /// What of a file or of a library's message may reach a terminal: tabs and ends of lines become spaces, other control
 /// characters '?'.
 char printable(char c);

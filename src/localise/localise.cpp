@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <optional>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "base/error.h"
 #include "image/depth_unit.h"
@@ -131,8 +131,8 @@ void check_order(const Foreground& foreground, const cv::Mat1b& object, const cv
       if (object(y, x) != 0) ++measured, sum_m += static_cast<double>(rise);
     }
   check((fell < kLeast_px || fell <= rose) && (measured == 0 || sum_m / measured > -kMeanFall_m),
-        "[localise] what is new lies below the table: ", fell, " pixels are further from the camera than before, ",
-        rose, " are nearer; are the pictures of the table and of the object exchanged?");
+        "[localise] what is new lies below the table; are the pictures of the table and of the object exchanged? ",
+        fell, " pixels are further from the camera than before, ", rose, " are nearer");
 }
 
 /// Throws Error unless a quarter of the object's pixels have a depth in both pictures, and half of its contour has one
@@ -290,7 +290,7 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   // The looking direction's z. A pose of another frame of a camera above the table has 0 here, up to rounding, or more.
   const double looking_z = camera_to_world.linear()(2, 2);
   constexpr double kLeastDown = 0.1;
-  check(looking_z < -kLeastDown, "[localise] the camera looks ", looking_z > kLeastDown ? "upwards" : "sideways",
+  check(looking_z<-kLeastDown, "[localise] the camera looks ", looking_z> kLeastDown ? "upwards" : "sideways",
         "; give the pose of its optical frame (z forward) in a world with z up");
   check_fits(camera, background, "background");
   check_fits(camera, current, "current");

@@ -47,9 +47,9 @@ struct LocalisedObject {
 ///
 /// Throws Error if the pictures do not have the camera's size, nothing is found, the object touches the border, there
 /// are several objects, less than a quarter of the object's pixels have depth, the object lies below the table (the
-/// pictures are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more, the
-/// object is larger than 1.5 m, or the unit of depth is doubtful: the table is far from z = 0, and with another unit it
-/// is not.
+/// pictures are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more,
+/// the object is larger than 1.5 m, or the unit of depth is doubtful: the table is far from z = 0, and with another
+/// unit it is not.
 LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
                          const RgbdView& current, const LocaliseOptions& = {});
 

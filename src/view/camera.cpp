@@ -46,7 +46,8 @@ Eigen::Vector3d outwards(const CameraPose& pose) {
   return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
 }
 
-Eigen::Isometry3d look_at(const CameraPose& given, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
+Eigen::Isometry3d look_at(const CameraPose& given, double radius_m, const Eigen::Vector3d& centre_m,
+                          CameraFrame frame) {
   const std::string problem = pose_problem(given);
   check(problem.empty(), "[view] ", problem);
   const CameraPose pose = without_rounding(given);

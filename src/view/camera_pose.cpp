@@ -1,12 +1,19 @@
 #include "view/camera_pose.h"
 
+#include <charconv>
 #include <cmath>
 
 #include "base/error.h"
-#include "base/text.h"
 
 namespace svnet {
 namespace {
+
+/// The shortest text that reads back as this number: "95", "90.00010000001".
+std::string shortest_text(double number) {
+  char text[32];
+  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  return {text, end};
+}
 
 std::string angle_problem(const char* name, double angle_deg, double lowest_deg, double highest_deg) {
   if (!std::isfinite(angle_deg)) return joined(name, " ", angle_deg, " is not finite");

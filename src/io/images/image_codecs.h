@@ -20,6 +20,9 @@ Image decode_jpeg(const std::string& name, Bytes file);
 Image decode_png(const std::string& name, Bytes file);
 Image decode_webp(const std::string& name, Bytes file);
 
+/// The EXIF orientation of a JPEG, PNG or WebP file, 1 to 8; 1 if it has none.
+int exif_orientation(Bytes file);
+
 /// The contents of a PNG file with 8-bit RGB pixels.
 std::string encoded_png(const std::string& name, const Image& image);
 
@@ -45,7 +48,8 @@ constexpr double kFarthest_m = 100;
 /// The depth, or 0 if `z_m` means that the pixel was not measured.
 float depth_or_zero(double z_m);
 
-/// The bytes of a file. Throws Error that names it if it cannot be read, is empty, or is larger than 1 GiB.
+/// The bytes of a file, or all that comes from a pipe. Throws Error that names it if it cannot be read, is empty, or is
+/// larger than 1 GiB.
 std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
 /// Whether the bytes `expected` are at `offset`.
 bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
+
 #include <yaml-cpp/yaml.h>
 
 #include "base/error.h"
@@ -78,7 +79,8 @@ Eigen::Isometry3d pose_of(const json& pose, const std::string& name) {
 CameraFile read_camera(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::ifstream file(path, std::ios::binary);
-  check(file && !std::filesystem::is_directory(path), name, ": cannot be read; expected a JSON or YAML file of a camera");
+  check(file && !std::filesystem::is_directory(path), name,
+        ": cannot be read; expected a JSON or YAML file of a camera");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   const json document = document_in(text, name);
   CameraFile camera{intrinsics_of(document, name), {}};

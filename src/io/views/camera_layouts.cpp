@@ -13,7 +13,8 @@ using nlohmann::json;
 using Names = std::vector<std::string>;
 
 constexpr const char* kRectify =
-    "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no distortion";
+    "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no "
+    "distortion";
 
 Index pixels_at(const json& object, const std::string& name, const std::string& key) {
   const double n = number_at(object, name, key);
@@ -97,8 +98,8 @@ const Names kRosKeys{"K",
                      "distortion_model"};
 
 Intrinsics ros_camera(const json& document, const std::string& name) {
-  Names known{"width",  "height",   "image_width", "image_height", "camera_name", "binning_x", "binning_y",
-              "header", "frame_id", "roi",         "pose"};
+  Names known{"width",     "height", "image_width", "image_height", "camera_name", "binning_x",
+              "binning_y", "header", "frame_id",    "roi",          "pose"};
   known.insert(known.end(), kRosKeys.begin(), kRosKeys.end());
   check_keys(document, name, known);
   const bool is_file = document.contains("image_width") || document.contains("image_height");
@@ -114,9 +115,8 @@ Intrinsics ros_camera(const json& document, const std::string& name) {
   const std::vector<double> p = numbers_at(document, name, projection);
   if (p.empty() || p[0] == 0) return camera;  // ROS: not calibrated
   const Intrinsics rectified = with_matrix(camera, p, 4, name + ": " + projection);
-  check(same_pinhole(camera, rectified), name, ": ", matrix, " and ", projection,
-        " are different cameras; leave out ", projection, " if the pictures are as taken, or give its numbers as ",
-        matrix, " if they are rectified");
+  check(same_pinhole(camera, rectified), name, ": ", matrix, " and ", projection, " are different cameras; leave out ",
+        projection, " if the pictures are as taken, or give its numbers as ", matrix, " if they are rectified");
   return camera;
 }
 

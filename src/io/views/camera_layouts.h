@@ -10,7 +10,8 @@ namespace svnet {
 /// The keys of a camera of any layout, "pose" among them, are those of one of:
 ///   svnet              width, height, fx, fy, cx, cy
 ///   RealSense          width, height, fx, fy, ppx, ppy, model, coeffs: rs2_intrinsics
-///   ROS, message       width, height, distortion_model, D, K, R, P and the rest of sensor_msgs/CameraInfo; ROS 2 writes
+///   ROS, message       width, height, distortion_model, D, K, R, P and the rest of sensor_msgs/CameraInfo; ROS 2
+///   writes
 ///                      d, k, r, p
 ///   ROS, file          image_width, image_height, camera_matrix, distortion_coefficients and so on, as
 ///                      camera_calibration_parsers writes them

@@ -18,9 +18,7 @@ bool CsvReader::skip_line_break() {
   return true;
 }
 
-void CsvReader::skip_spaces() {
-  rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size()));
-}
+void CsvReader::skip_spaces() { rest_.remove_prefix(std::min(rest_.find_first_not_of(" \t"), rest_.size())); }
 
 std::string CsvReader::quoted_field() {
   std::string field;

@@ -5,9 +5,9 @@
 
 namespace svnet {
 
-/// Comma-separated values as RFC 4180 defines them: fields may be in quotes, which then may hold commas, line breaks and
-/// doubled quotes; lines end with CR LF, LF or CR. Also accepted: a byte order mark at the start, and spaces around a
-/// quoted field.
+/// Comma-separated values as RFC 4180 defines them: fields may be in quotes, which then may hold commas, line breaks
+/// and doubled quotes; lines end with CR LF, LF or CR. Also accepted: a byte order mark at the start, and spaces around
+/// a quoted field.
 class CsvReader {
  public:
   /// `name` begins the message of an Error. The text must outlive the reader.
