@@ -62,8 +62,8 @@ int run(int argc, char** argv, Communicator& communicator) {
         const BackboneWithOrigin source =
             source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
-          console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                              unused_text(report.unused)));
+          console.line(
+              joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));
         const ViewDataset dataset = read_view_dataset(images);
         if (communicator.is_root()) check_can_be_written(output, pictures_of(dataset));
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));

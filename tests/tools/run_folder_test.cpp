@@ -32,8 +32,9 @@ TEST_CASE("a run folder works after it was moved with its data, or without them 
   const Ran ran = place.run("svnet-eval run --threads 1 --quiet");
   CHECK(ran.status == 1);
   CHECK_THAT(ran.err, Contains("no such folder; if the data set was moved, say where it is by --set dataset.root=DIR"));
-  CHECK_THAT(place.output_of("svnet-eval run --threads 1 --quiet --set dataset.root=photos --set weights.folder=weights"),
-             Contains("Training categories"));
+  CHECK_THAT(
+      place.output_of("svnet-eval run --threads 1 --quiet --set dataset.root=photos --set weights.folder=weights"),
+      Contains("Training categories"));
 }
 
 TEST_CASE("a dry run says which folder it cannot write to, and why") {
