@@ -67,8 +67,8 @@ int run(int argc, char** argv, Communicator& communicator) {
         const BackboneWithOrigin source =
             source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
-          console.line(joined(weights.string(), ": ", report.loaded.size(), " layers loaded",
-                              unused_text(report.unused)));
+          console.line(
+              joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));
         const ViewDataset dataset = read_view_dataset(images, *find_enum<ExifOrientation>(exif));
         if (communicator.is_root())
           for (const std::string& note : dataset_notes(dataset, Parallel::shared())) console.line(note);

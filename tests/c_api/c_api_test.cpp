@@ -136,13 +136,22 @@ TEST_CASE("wrong arguments are reported and do not change the outputs") {
   std::size_t best = 7;
   refused(svnet_score(m, features.data(), poses, 2, scores), "[predict] pose 1: phi 95 is outside [0, 90] degrees");
   const double rounded[] = {0, 45, 0, 90.0002};
-  refused(svnet_score(m, features.data(), rounded, 2, scores), "[predict] pose 1: phi 90.0002 is outside [0, 90] degrees");
+  refused(svnet_score(m, features.data(), rounded, 2, scores),
+          "[predict] pose 1: phi 90.0002 is outside [0, 90] degrees");
   refused(svnet_score(m, features.data(), nullptr, 2, scores), "[svnet_score] poses_deg is NULL");
   refused(svnet_score(m, nullptr, poses, 1, scores), "[svnet_score] features is NULL");
   refused(svnet_score(m, features.data(), poses, 1, nullptr), "[svnet_score] scores is NULL");
   refused(svnet_best_view(m, features.data(), poses, 0, &best, nullptr),
           "[svnet_best_view] count is 0, there is no pose to choose from");
   refused(svnet_best_view(m, features.data(), poses, 1, nullptr, nullptr), "[svnet_best_view] best is NULL");
+
+  // Angles that are out of range by rounding alone are taken for the bound.
+  const double bounds[] = {720, 90, -360, 0}, rounded_out[] = {720.00005, 90.0000025, -360.00005, -0.00005};
+  float at_bounds[] = {-1, -1}, at_rounded[] = {-2, -2};
+  REQUIRE(svnet_score(m, features.data(), bounds, 2, at_bounds) == SVNET_OK);
+  REQUIRE(svnet_score(m, features.data(), rounded_out, 2, at_rounded) == SVNET_OK);
+  CHECK((at_rounded[0] == at_bounds[0] && at_rounded[1] == at_bounds[1]));
+
   features[1] = std::nanf("");
   refused(svnet_score(m, features.data(), poses, 1, scores), "[predict] feature 1 is nan, not a finite number");
   CHECK(scores[0] == -1);

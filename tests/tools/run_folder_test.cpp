@@ -27,13 +27,14 @@ TEST_CASE("a run folder works after it was moved with its data, or without them 
       "mkdir project && cp -r data weights config.yaml project && cd project && "
       "svnet-train config.yaml --output runs/a --threads 1 --quiet && cd .. && mv project moved");
   CHECK_THAT(file_contents(place / "moved/runs/a/config.yaml"), Contains("root: ../../data"));
-  CHECK_THAT(place.output_of("svnet-eval moved/runs/a --threads 1 --quiet"), Contains("Held-out categories"));
+  CHECK_THAT(place.output_of("svnet-eval moved/runs/a --threads 1 --quiet"), Contains("Training categories"));
   place.output_of("mv moved/data photos; mv moved/runs/a run");
   const Ran ran = place.run("svnet-eval run --threads 1 --quiet");
   CHECK(ran.status == 1);
   CHECK_THAT(ran.err, Contains("no such folder; if the data set was moved, say where it is by --set dataset.root=DIR"));
-  CHECK_THAT(place.output_of("svnet-eval run --threads 1 --quiet --set dataset.root=photos --set weights.folder=weights"),
-             Contains("Held-out categories"));
+  CHECK_THAT(
+      place.output_of("svnet-eval run --threads 1 --quiet --set dataset.root=photos --set weights.folder=weights"),
+      Contains("Training categories"));
 }
 
 TEST_CASE("a dry run says which folder it cannot write to, and why") {

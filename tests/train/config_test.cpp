@@ -215,6 +215,25 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   CHECK(again.scores.singletons == Singletons::skip);
 }
 
+TEST_CASE("the configuration of a run has relative paths to what lies near its folder") {
+  const TemporaryFolder folder;
+  const std::filesystem::path run = folder.path() / "runs" / "a";
+  std::filesystem::create_directories(run);
+  Config c = parse(kBase, {});
+  const auto written = [&](const std::filesystem::path& root) {
+    c.dataset.root = root;
+    return to_yaml(c, run);
+  };
+  CHECK_THAT(written(folder.path() / "data"), Catch::Contains("root: ../../data\n"));
+  CHECK_THAT(written(folder.path() / "runs" / "views"), Catch::Contains("root: ../views\n"));
+  CHECK_THAT(written(run / "views"), Catch::Contains("root: views\n"));
+  CHECK_THAT(written("/elsewhere/data"), Catch::Contains("root: /elsewhere/data\n"));
+  // Through a link the data lie elsewhere.
+  std::filesystem::create_symlink("/usr", folder.path() / "link");
+  CHECK_THAT(written(folder.path() / "link"), Catch::Contains("root: " + (folder.path() / "link").string() + "\n"));
+  CHECK(parse_config(written(folder.path() / "data"), "config.yaml", run).dataset.root == folder.path() / "data");
+}
+
 TEST_CASE("the evaluation uses the pipeline of the scores if none is named") {
   CHECK(parse("dataset: {root: data}\nscores: {backbone: mobilenet, clustering: single, problems: 1}\n")
             .evaluation.pipelines == std::vector<std::string>{"mobilenet_single"});

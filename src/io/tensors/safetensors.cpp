@@ -30,9 +30,10 @@ void check_size(const std::string& file, std::size_t size) {
   check(size >= kLengthBytes, file, ": has only ", size, " bytes; is it a safetensors file?");
 }
 
-/// Throws Error if the contents are known to be something else.
+/// Throws Error if the contents are known to be something else. A header begins with a brace.
 void check_not_another_format(const std::string& file, std::span<const std::byte> bytes) {
   const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  if (text.size() > kLengthBytes && text[kLengthBytes] == '{') return;
   const std::string instead = recognised_instead(text);
   check(instead.empty(), file, ": is not a safetensors file", instead);
 }
