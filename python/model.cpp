@@ -39,7 +39,7 @@ Parameters
 ----------
 image : (H, W, 3) uint8, RGB, the object from above; any size and strides, not preprocessed
 angles_deg : (M, 2) integers or floats, M >= 1: azimuth theta in [-360, 720] (a full turn changes nothing) and elevation
-    phi in [0, 90] of each camera pose, in degrees; (90, 90) is the top view
+    phi in [0, 90] of each camera pose, in degrees, up to rounding (1e-4); (90, 90) is the top view
 
 Returns
 -------

@@ -9,7 +9,8 @@
  *
  * Units: a pose is a pair (theta, phi) in degrees; poses are stored one after the other. The camera is on the upper
  * half-sphere around the object. theta is its azimuth, in [-360, 720] (a full turn changes nothing); phi is its
- * elevation above the table, in [0, 90]. (90, 90) is the top view. A score is in [0, 1]; higher is more informative.
+ * elevation above the table, in [0, 90]. Angles that are out of range by at most 1e-4, which is rounding, are taken for
+ * the bound. (90, 90) is the top view. A score is in [0, 1]; higher is more informative.
  *
  * Errors: functions that can fail return a status. If it is not SVNET_OK, svnet_last_error() returns one line of text,
  * and the outputs are not written, unless a function says otherwise. The library throws no C++ exception and writes

@@ -65,3 +65,8 @@ def test_what_is_refused(arguments, message):
     with pytest.raises(svnet.Error, match=message) as error:
         svnet.camera_pose(*arguments)
     assert "\n" not in str(error.value)
+
+
+def test_angles_out_of_range_by_rounding_mean_the_bound():
+    exact = svnet.camera_pose(0, 90, 1, (0, 0, 0))
+    assert np.array_equal(svnet.camera_pose(0, 90.00000250447816, 1, (0, 0, 0)), exact)

@@ -185,3 +185,12 @@ def test_interrupt_ends_a_long_computation(model, image):
     with pytest.raises(KeyboardInterrupt):
         for _ in range(100000):
             model.score(image, POSES * 20000)
+
+
+def test_angles_out_of_range_by_rounding_mean_the_bound(model, image):
+    radians = np.deg2rad(np.array([[0, 90]])).astype(np.float32)
+    assert np.rad2deg(radians.astype(np.float64))[0, 1] > 90
+    assert np.array_equal(model.score(image, np.rad2deg(radians.astype(np.float64))), model.score(image, [[0, 90]]))
+    assert np.array_equal(model.score(image, [[720.00009, -0.0001]]), model.score(image, [[720, 0]]))
+    with pytest.raises(svnet.Error, match=r"phi 90\.0002 is outside"):
+        model.score(image, [[0, 90.0002]])
