@@ -11,7 +11,7 @@ namespace {
 /// The shortest text that reads back as this number: "95", "90.00010000001".
 std::string shortest_text(double number) {
   char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, number).ptr;
+  const auto end = std::to_chars(text, text + sizeof text, number, std::chars_format::general).ptr;
   return {text, end};
 }
 
