@@ -281,24 +281,24 @@ std::vector<Image> pictures_of_steps(const Intrinsics& camera, const Eigen::Isom
   return {image_of(grey), image_of(object), image_of(drawn), image_of(raised)};
 }
 
-}  // namespace
+/// What to say after an error if the table is further or nearer than any: "" otherwise.
+std::string doubt_about_unit(double unit_m, double distance_m) {
+  constexpr double kNearest_m = 0.15, kFurthest_m = 5;
+  if (distance_m >= kNearest_m && distance_m <= kFurthest_m) return "";
+  return joined("; the table is ", distance_m, " m below the camera: is the unit of depth ",
+                unit_m > 0 ? "(" + depth_unit_name(unit_m) + ") " : "", "wrong? See --depth-unit");
+}
 
-LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
-                         const RgbdView& current, const LocaliseOptions& options) {
-  const std::string problem = intrinsics_problem(camera);
-  check(problem.empty(), "[localise] ", problem);
-  // The looking direction's z. A pose of another frame of a camera above the table has 0 here, up to rounding, or more.
-  const double looking_z = camera_to_world.linear()(2, 2);
-  constexpr double kLeastDown = 0.1;
-  check(looking_z<-kLeastDown, "[localise] the camera looks ", looking_z> kLeastDown ? "upwards" : "sideways",
-        "; give the pose of its optical frame (z forward) in a world with z up");
-  check_fits(camera, background, "background");
-  check_fits(camera, current, "current");
-  const cv::Mat3b before = matrix_of(background.rgb), after = matrix_of(current.rgb);
-  const cv::Mat1f depth_before = depth_of(background.depth), depth_after = depth_of(current.depth);
-  const double camera_m = camera_to_world.translation().z(), unit_m = background.depth.unit_m;
-  const double table_m = common_height_m(camera, camera_to_world, depth_before).value_or(0);
-  if (!options.unit_is_certain) check_unit(unit_m, camera_m, table_m);
+/// Both pictures of a table, and the pose of the camera for them.
+struct Pictures {
+  const Intrinsics& camera;
+  const Eigen::Isometry3d& camera_to_world;
+  cv::Mat3b before, after;
+  cv::Mat1f depth_before, depth_after;
+};
+
+LocalisedObject measured_object(const Pictures& pictures, const LocaliseOptions& options) {
+  const auto& [camera, camera_to_world, before, after, depth_before, depth_after] = pictures;
   const Foreground foreground = find_foreground(before, depth_before, after, depth_after);
   const cv::Mat1b object = object_mask(foreground.mask, options.take_largest);
 
@@ -340,9 +340,41 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   result.centre_m = {middle.x / 1000.0, middle.y / 1000.0, height.table_m + height.object_m / 2};
   result.diagonal_m = std::sqrt(result.length_m * result.length_m + result.width_m * result.width_m +
                                 result.height_m * result.height_m);
-  check_size(result, unit_m, camera_m - height.table_m);
   if (options.keep_steps)
     result.steps = pictures_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
+  return result;
+}
+
+}  // namespace
+
+LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
+                         const RgbdView& current, const LocaliseOptions& options) {
+  const std::string problem = intrinsics_problem(camera);
+  check(problem.empty(), "[localise] ", problem);
+  // The looking direction's z. A pose of another frame of a camera above the table has 0 here, up to rounding, or more.
+  const double looking_z = camera_to_world.linear()(2, 2);
+  constexpr double kLeastDown = 0.1;
+  const bool looks_down = -looking_z > kLeastDown;
+  check(looks_down, "[localise] the camera looks ", looking_z > kLeastDown ? "upwards" : "sideways",
+        "; give the pose of its optical frame (z forward) in a world with z up");
+  check_fits(camera, background, "background");
+  check_fits(camera, current, "current");
+  const Pictures pictures{camera,
+                          camera_to_world,
+                          matrix_of(background.rgb),
+                          matrix_of(current.rgb),
+                          depth_of(background.depth),
+                          depth_of(current.depth)};
+  const double camera_m = camera_to_world.translation().z(), unit_m = background.depth.unit_m;
+  const double table_m = common_height_m(camera, camera_to_world, pictures.depth_before).value_or(0);
+  if (!options.unit_is_certain) check_unit(unit_m, camera_m, table_m);
+  LocalisedObject result;
+  try {
+    result = measured_object(pictures, options);
+  } catch (const Error& error) {
+    fail(error.what(), doubt_about_unit(unit_m, camera_m - table_m));
+  }
+  check_size(result, unit_m, camera_m - table_m);
   return result;
 }
 

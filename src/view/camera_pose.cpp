@@ -14,7 +14,7 @@ constexpr double kLowestTheta_deg = -360, kHighestTheta_deg = 720, kLowestPhi_de
 /// All digits that the number needs: "90.0002", not "90".
 std::string exact(double number) {
   char text[32];
-  return {text, std::to_chars(text, text + sizeof text, number).ptr};
+  return {text, std::to_chars(text, text + sizeof text, number, std::chars_format::general).ptr};
 }
 
 std::string angle_problem(const char* name, double angle_deg, double lowest_deg, double highest_deg) {

@@ -131,6 +131,12 @@ TEST_CASE("wrong arguments are reported and do not change the outputs") {
   refused(svnet_embed(m, pixels.data(), 4, 4, 12, SVNET_RGB8, nullptr), "[svnet_embed] features is NULL");
   CHECK(features == untouched);
 
+  const double rounded_pose[] = {0, 90.00000250447816}, exact_pose[] = {0, 90};
+  float rounded_score = -1, exact_score = -2;
+  REQUIRE(svnet_embed(m, pixels.data(), 4, 4, 12, SVNET_RGB8, features.data()) == SVNET_OK);
+  REQUIRE(svnet_score(m, features.data(), rounded_pose, 1, &rounded_score) == SVNET_OK);
+  REQUIRE(svnet_score(m, features.data(), exact_pose, 1, &exact_score) == SVNET_OK);
+  CHECK(rounded_score == exact_score);
   const double poses[] = {0, 45, 0, 95};
   float scores[] = {-1, -1};
   std::size_t best = 7;

@@ -267,7 +267,8 @@ std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdPic
 TEST_CASE("exchanged pictures are refused for objects of every height") {
   for (const char* name : {"mug", "bowl", "comb", "fork", "key", "knife", "pen", "plate", "scissors", "spoon"}) {
     INFO(name);
-    const PosedObject posed = pose_object(catalogue_object(name, 1, 3), 1, 3, 5);
+    const Mesh mesh = catalogue_object(name, 1, 3);
+    const PosedObject posed = pose_object(mesh, 1, 3, 5);
     const Overview overview = capture_overview(posed, 3, 5);
     CHECK(refusal(overview.background, overview.current) == "found");
     const std::string message = refusal(overview.current, overview.background);
@@ -277,7 +278,8 @@ TEST_CASE("exchanged pictures are refused for objects of every height") {
 }
 
 TEST_CASE("an object without depth is refused, even if the ground of a mug has some") {
-  const PosedObject posed = pose_object(catalogue_object("mug", 1, 3), 1, 3, 5);
+  const Mesh mesh = catalogue_object("mug", 1, 3);
+  const PosedObject posed = pose_object(mesh, 1, 3, 5);
   const Overview overview = capture_overview(posed, 3, 5);
   RgbdPicture walls = overview.current, all = overview.current;
   for (std::size_t i = 0; i < walls.depth.metres.size(); ++i) {
@@ -329,12 +331,20 @@ TEST_CASE("depth in another unit is suspected by name") {
   }
   CHECK(refusal_from(pose, scaled_depth(before, 1, 0.001), scaled_depth(after, 1, 0.001)) == "found");
 
-  // The table is not at z = 0: its size tells.
+  // The table is not at z = 0: the distance tells if the object is not found, otherwise its size.
   const Eigen::Isometry3d lifted = Eigen::Translation3d(0, 0, 40) * pose;
-  const RgbdPicture far_before = scaled_depth(before, 100, 1), far_after = scaled_depth(after, 100, 1);
-  const std::string message = refusal_from(lifted, far_before, far_after);
+  CHECK_THAT(refusal_from(lifted, scaled_depth(before, 100, 1), scaled_depth(after, 100, 1)),
+             Catch::Contains("is the unit of depth (m) wrong?") && Catch::Contains("--depth-unit"));
+  RgbdPicture exact_before = before, exact_after = after;
+  for (std::size_t i = 0; i < exact_after.depth.metres.size(); ++i) {
+    const bool is_object = before.depth.metres[i] - after.depth.metres[i] > 0.02f;
+    exact_before.depth.metres[i] = 1;
+    exact_after.depth.metres[i] = is_object ? 0.96f : 1.0f;
+  }
+  const std::string message =
+      refusal_from(lifted, scaled_depth(exact_before, 20, 0.01), scaled_depth(exact_after, 20, 0.01));
   CHECK_THAT(message,
              Catch::StartsWith("[localise] the object is ") &&
-                 Catch::Contains("more than the 1.5 m of anything on a table; is the unit of depth (m) wrong?") &&
-                 Catch::Contains(" m with depth in cm"));
+                 Catch::Contains("more than the 1.5 m of anything on a table; is the unit of depth (cm) wrong?") &&
+                 Catch::Contains(" m with depth in mm"));
 }

@@ -38,7 +38,11 @@ Image read_image(const std::filesystem::path& path, ExifOrientation exif) {
   return {};
 }
 
-int read_exif_orientation(const std::filesystem::path& path) { return exif_orientation(picture_contents(path)); }
+int read_exif_orientation(const std::filesystem::path& path) try {
+  return exif_orientation(picture_contents(path));
+} catch (const Error&) {
+  return 1;
+}
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encoded_png(path.string(), image));

@@ -25,7 +25,7 @@ struct Picture {
 /// Reads a file once, for both. Throws Error as read_image does.
 Picture read_picture(const std::filesystem::path& path);
 
-/// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or is no picture.
+/// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or cannot be read.
 int read_exif_orientation(const std::filesystem::path& path);
 
 /// Writes an 8-bit RGB PNG atomically (io/files/atomic_file.h). Throws Error that names `path`.
