@@ -14,7 +14,7 @@ namespace {
 
 int run(int argc, char** argv, Communicator& communicator) {
   Command command("svnet-train",
-                  "Runs every stage of a configuration into a run folder: features, scores, training, model.",
+                  "Runs the stages features, scores and model of a configuration into a run folder; svnet-eval evaluates it.",
                   "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos\n"
                   "mpirun -n 4 svnet-train --threads 8 configs/eth80.yaml");
   std::filesystem::path config_file, output;
