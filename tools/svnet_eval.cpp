@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
           ": no such folder; if the data set was moved, say where it is by --set dataset.root=DIR");
     if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
-    ViewDataset dataset = read_view_dataset(config.dataset.root);
+    ViewDataset dataset = read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
     if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");

@@ -5,6 +5,7 @@
 #include "io/files/file_hash.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
+#include "io/views/dataset_notes.h"
 #include "mpi/mpi_communicator.h"
 #include "train/feature_extraction.h"
 
@@ -44,7 +45,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       "--output features.h5");
   std::vector<std::string> names;
   for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
-  std::string backbone, layer;
+  std::string backbone, layer, exif{name_of(ExifOrientation::ignore)};
   std::filesystem::path weights, images, output;
   command.add("--backbone", backbone, "The network: " + joined_with(", ", names)).required().value_name("NAME");
   command.add("--weights", weights, "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
@@ -53,6 +54,10 @@ int run(int argc, char** argv, Communicator& communicator) {
   command.add("--output", output, "The file to write").required().value_name("FILE");
   command.add("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")
       .value_name("NAME");
+  command
+      .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
+      .one_of(names_of<ExifOrientation>())
+      .shows_default();
   command.add_precision();
   return command.run(
       argc, argv,
@@ -64,7 +69,9 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (!weights.empty())
           console.line(
               joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));
-        const ViewDataset dataset = read_view_dataset(images);
+        const ViewDataset dataset = read_view_dataset(images, *find_enum<ExifOrientation>(exif));
+        if (communicator.is_root())
+          for (const std::string& note : dataset_notes(dataset, Parallel::shared())) console.line(note);
         if (communicator.is_root()) check_can_be_written(output, pictures_of(dataset));
         const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
         const Features features = extract_features(source.backbone, dataset, origin, console.messages(), communicator);

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "command/command.h"
+#include "image/oriented.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_file.h"
 #include "io/views/pose_list_file.h"
@@ -31,6 +32,16 @@ std::string json_text(const std::vector<CameraPose>& poses, const std::vector<fl
   return nlohmann::ordered_json{{"best", views.front()}, {"views", views}}.dump(2);
 }
 
+/// The picture as it is stored, with a warning if viewers show it turned, or turned as they do.
+Image top_image(const std::filesystem::path& path, const std::string& exif, Console& console) {
+  Picture picture = read_picture(path);
+  if (exif == name_of(ExifOrientation::obey)) return oriented(std::move(picture.image), picture.exif_orientation);
+  if (picture.exif_orientation != 1)
+    console.line(joined(path.string(), ": the EXIF orientation ", picture.exif_orientation,
+                        " is ignored; --exif-orientation obey turns the picture as viewers do"));
+  return std::move(picture.image);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -41,6 +52,7 @@ int main(int argc, char** argv) {
                   "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
   fs::path model, image, poses_file, plot;
   bool grid = false, json = false;
+  std::string exif{name_of(ExifOrientation::ignore)};
   command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
   command.add("--image", image, "The object from above: a PNG, JPEG or WebP picture of any size")
       .required()
@@ -51,18 +63,23 @@ int main(int argc, char** argv) {
   command
       .add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
       .excludes(poses_option);
+  command
+      .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
+      .one_of(names_of<ExifOrientation>())
+      .shows_default();
   command.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
   command
       .add("--plot", plot,
            "Writes a PNG picture of the half-sphere from above: the top view in the centre, theta 0 to the right, "
-           "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red")
+           "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red. With /dev/stdout "
+           "no scores are printed")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
-    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file});
+    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file}, Streams::allowed);
     const std::vector<CameraPose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
     const Predictor predictor(model, inference_options_from_environment());
-    const std::vector<float> scores = predictor.scores(predictor.embed(read_image(image)), poses);
+    const std::vector<float> scores = predictor.scores(predictor.embed(top_image(image, exif, console)), poses);
     if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));
-    console.result(json ? json_text(poses, scores) : table_text(poses, scores));
+    if (!is_standard_output(plot)) console.result(json ? json_text(poses, scores) : table_text(poses, scores));
   });
 }

@@ -6,6 +6,7 @@
 #include "io/files/atomic_file.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
+#include "io/views/dataset_notes.h"
 #include "train/pretraining.h"
 
 namespace {
@@ -56,10 +57,16 @@ int main(int argc, char** argv) {
   command.add("--weight-decay", options.weight_decay, "Decoupled weight decay of kernels (0.05)").non_negative();
   command.add("--seed", options.seed, "Seed of the weights and of the order and changes of the images (0)")
       .in_range(0, Index{1} << 53);
+  std::string exif{name_of(ExifOrientation::ignore)};
+  command
+      .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
+      .one_of(names_of<ExifOrientation>())
+      .shows_default();
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     check_can_be_written(output);
-    const ViewDataset dataset = read_view_dataset(images);
+    const ViewDataset dataset = read_view_dataset(images, *find_enum<ExifOrientation>(exif));
+    for (const std::string& note : dataset_notes(dataset, Parallel::shared())) console.line(note);
     options.inference = inference_options_from_environment();
     const Pretrained result = pretrain(dataset, options, console.messages());
     write_backbone(output, result.backbone, origin_text(result, options));

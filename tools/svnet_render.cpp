@@ -5,6 +5,20 @@
 
 using namespace svnet;
 
+namespace {
+
+/// "; 2 of 12 objects left out (mug/a, mug/b)", or nothing.
+std::string objects_left_out(const RenderSummary& made) {
+  constexpr std::size_t kNamed = 10;
+  std::vector<std::string> names = made.objects_left_out;
+  if (names.empty()) return "";
+  if (names.size() > kNamed) names.resize(kNamed), names.emplace_back("...");
+  return joined("; ", made.objects_left_out.size(), " of ", made.objects, " objects left out (",
+                joined_with(", ", names), ")");
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
   Command command("svnet-render",
                   "Collects views of household objects and tools in simulation, as a robot with an RGB-D camera would: "
@@ -27,14 +41,24 @@ int main(int argc, char** argv) {
   command.add("--size", options.size, "Height and width of the pictures in pixels (224)").in_range(32, 2048);
   command.add("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
       .in_range(0, Index{1} << 53);
-  const Argument meshes = command.add(
-      "--meshes", options.meshes, "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb)");
-  command.add("--unit", options.metres_per_unit, "Metres per unit of the meshes (1); objects may be 1 mm to 1 m long")
-      .positive()
-      .needs(meshes);
+  const Argument meshes =
+      command.add("--meshes", options.meshes,
+                  "Your own objects instead: a folder with CATEGORY/NAME.obj (or .ply, .stl, .glb, .gltf), or "
+                  "CATEGORY/NAME/ with a mesh in it. A mesh that cannot be used is left out and named; the exit status "
+                  "is 1 only if no object is collected");
+  double metres_per_unit = 1;
+  const Argument unit =
+      command
+          .add("--unit", metres_per_unit,
+               "Metres per unit of all meshes; objects may be 1 mm to 1 m long (default: metres; centimetres or "
+               "millimetres for a mesh that only makes sense so, in a line of its own)")
+          .positive()
+          .needs(meshes);
   return command.run(argc, argv, [&](Console& console) {
+    if (unit.given()) options.metres_per_unit = metres_per_unit;
     const RenderSummary made = render_dataset(options, console.messages());
     console.result(joined(made.pictures, " pictures of ", made.poses, " poses in ", options.output.string(),
-                          made.left_out > 0 ? joined("; ", made.left_out, " left out, as manifest.json tells") : ""));
+                          objects_left_out(made), made.left_out > 0 ? joined("; ", made.left_out, " left out") : "",
+                          made.left_out > 0 || !made.objects_left_out.empty() ? ", as manifest.json tells" : ""));
   });
 }

@@ -60,11 +60,16 @@ int run(int argc, char** argv, Communicator& communicator) {
           wrong_usage("give one of --min-samples, --problems, --target-error");
         config.dataset.held_out = excluded;
         if (communicator.is_root()) check_can_be_written(output, {features_file});
-        const ViewDataset dataset = read_view_dataset(dataset_folder);
+        ViewDataset dataset = read_view_dataset(dataset_folder);
         const Features features = read_features(features_file);
         check_rows(dataset, features.paths, features_file.string());
-        check(features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()), features_file.string(),
-              ": features of other pictures than those in ", dataset_folder.string(), "; run svnet-features again");
+        // Scores need no pixels: features of turned pictures are as good.
+        if (features.dataset_fingerprint != fingerprint(dataset, Parallel::shared()))
+          dataset.exif_orientation = ExifOrientation::obey;
+        check(dataset.exif_orientation == ExifOrientation::ignore ||
+                  features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()),
+              features_file.string(), ": features of other pictures than those in ", dataset_folder.string(),
+              "; run svnet-features again");
         const std::vector<bool> left_out = named_categories(dataset, excluded, "--exclude");
         const auto available = std::count(left_out.begin(), left_out.end(), false);
         check(available >= 2, available, " categories take part, at least 2 are needed",

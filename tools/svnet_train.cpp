@@ -37,7 +37,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       [&](Console& console) {
         const InferenceOptions inference = inference_options_from_environment();
         const Config config = read_config(config_file, overrides);
-        ViewDataset dataset = read_view_dataset(config.dataset.root);
+        ViewDataset dataset = read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
         if (dry) {
           if (communicator.is_root()) dry_run(config, dataset, console.messages(), inference);
           console.result("dry run: every stage works");

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "command/command.h"
+#include "image/depth_unit.h"
 #include "io/files/atomic_file.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
@@ -28,6 +29,7 @@ struct Options {
   double diagonal_m = 0, lowest_phi_deg = 0;
   Index fibonacci = 0;
   bool largest = false;
+  std::string depth_unit;
   std::string frame = name_of(CameraFrame::optical);
 };
 
@@ -79,9 +81,13 @@ Json object_json(const LocalisedObject& object) {
 LocalisedObject find_object(const Options& options, const CameraFile& camera) {
   check(camera.camera_to_world.has_value(), options.camera.string(),
         ": the key 'pose' is missing, where the camera was for the pictures");
+  std::optional<double> unit_m;
+  if (!options.depth_unit.empty()) unit_m = depth_unit_m(options.depth_unit);
   const Image before = read_image(options.background[0]), after = read_image(options.current[0]);
-  const DepthImage depth_before = read_depth(options.background[1]), depth_after = read_depth(options.current[1]);
-  const LocaliseOptions how{options.largest, !options.steps.empty()};
+  const DepthImage depth_before = read_depth(options.background[1], unit_m);
+  const DepthImage depth_after = read_depth(options.current[1], unit_m);
+  const LocaliseOptions how{
+      .take_largest = options.largest, .keep_steps = !options.steps.empty(), .unit_is_certain = unit_m.has_value()};
   return localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
 }
 
@@ -101,7 +107,7 @@ void check_outputs(const Options& options) {
   }
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;
-    check_can_be_written(output, others);
+    check_can_be_written(output, others, Streams::allowed);
     others.push_back(output);
   }
 }
@@ -151,6 +157,8 @@ void write_views(const Options& options, Console& console) {
   if (!options.json.empty()) write_atomically(options.json, document.dump(2) + "\n");
   if (!options.plot.empty()) write_png(options.plot, pose_plot(poses, reached));
   for (std::size_t i = 0; i < steps.size(); ++i) write_png(step_file(options, kLocaliseSteps[i]), steps[i]);
+  for (const fs::path& output : {options.csv, options.json, options.plot})
+    if (is_standard_output(output)) return;
   if (options.csv.empty() && options.json.empty()) {
     std::string text = csv_text(views);
     text.pop_back();
@@ -175,9 +183,11 @@ int main(int argc, char** argv) {
                   "svnet-views camera.json --background empty.png empty_depth.png --current now.png now_depth.png");
   Options options;
   command
-      .add("CAMERA", options.camera,
-           "JSON: width, height, fx, fy, cx, cy in pixels; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of "
-           "the optical frame in the world, z upwards)")
+      .add(
+          "CAMERA", options.camera,
+          "JSON or YAML: width, height, fx, fy, cx, cy in pixels, or a ROS camera_info or RealSense intrinsics without "
+          "distortion; for --current also pose (x_m, y_m, z_m, qx, qy, qz, qw of the optical frame in the world, z "
+          "upwards)")
       .required();
   const Argument centre =
       command.add("--centre", options.centre_m, "The object's geometric centre in the world, metres")
@@ -187,14 +197,18 @@ int main(int argc, char** argv) {
       command.add("--diagonal", options.diagonal_m, "sqrt(length^2 + width^2 + height^2), metres").positive();
   centre.needs(diagonal);
   diagonal.needs(centre);
-  const Argument background = command
-                                  .add("--background", options.background,
-                                       "The empty table: a picture, and depth as 16-bit PNG (mm) or .npy (m)")
-                                  .exactly(2);
+  const Argument background =
+      command.add("--background", options.background, "The empty table: a picture, and depth as 16-bit PNG or .npy")
+          .exactly(2);
   const Argument current = command.add("--current", options.current, "The same with the object").exactly(2);
   background.needs(current).excludes(centre);
   current.needs(background);
   command.add_flag("--largest", options.largest, "Of several objects take the largest").needs(current);
+  command
+      .add("--depth-unit", options.depth_unit,
+           "The unit of depth: m, cm, mm, 0.25mm (RealSense L515), 0.2mm (TUM RGB-D) or the like, or metres per unit; "
+           "default: integers are millimetres, floats metres")
+      .needs(current);
   command.add("--steps", options.steps, "A folder for pictures of each step of the localisation").needs(current);
   const Argument poses =
       command.add("--poses", options.poses, "CSV with the header theta,phi in place of the paper's grid");

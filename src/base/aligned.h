@@ -13,7 +13,7 @@ namespace svnet {
 /// A cache line, and the widest vector of any machine.
 inline constexpr std::size_t kAlignment = 64;
 
-/// Asks for huge pages under large memory: weights and matrices that are walked in large steps miss the TLB less.
+/// Asks for huge pages if the memory is large: weights and matrices that are read in large steps miss the TLB less.
 inline void advise_huge_pages(void* memory, std::size_t bytes) {
   constexpr std::size_t kLarge = std::size_t{4} << 20, kPage = 4096;
   if (bytes < kLarge) return;
@@ -22,8 +22,8 @@ inline void advise_huge_pages(void* memory, std::size_t bytes) {
   ::madvise(reinterpret_cast<void*>(first), last - first, MADV_HUGEPAGE);  // a wish: refusal changes nothing
 }
 
-/// Memory that starts on a 64-byte border, with room for one more vector behind it, large memory on huge pages where
-/// the system has them; nullptr where there is none. Freed by std::free. Not initialised.
+/// Memory that starts on a 64-byte boundary and has room for one more vector at the end. Large memory is on huge pages
+/// if the system has them. Not initialised. Returns nullptr if there is no memory. Freed by std::free.
 inline void* aligned_memory(std::size_t bytes) {
   const std::size_t rounded = (bytes / kAlignment + 2) * kAlignment;
   void* memory = std::aligned_alloc(kAlignment, rounded);
@@ -36,7 +36,7 @@ struct FreeAligned {
 };
 using AlignedFloats = std::unique_ptr<float[], FreeAligned>;
 
-/// Memory for `count` numbers, so that a kernel may read one vector past the end. Not initialised.
+/// Memory for `count` floats. A kernel may read one vector past the end. Not initialised.
 inline AlignedFloats aligned_floats(Index count) {
   const std::size_t bytes = static_cast<std::size_t>(count) * sizeof(float);
   auto* p = static_cast<float*>(aligned_memory(bytes));

@@ -6,13 +6,13 @@
 
 namespace svnet {
 
-/// What a user can cause and mend: one line that says what was wrong, where, and what to do.
+/// An error that a user can cause and fix. Its text is one line: what was wrong, where, and what to do.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// More memory was asked for than there is. Interfaces know it as std::bad_alloc; it says how much.
+/// Memory ran out. Interfaces catch it as std::bad_alloc; its text says how much was needed.
 class NoMemory : public std::bad_alloc {
  public:
   explicit NoMemory(std::size_t bytes) : text_("no memory for " + std::to_string(bytes >> 20) + " MiB") {}
@@ -22,7 +22,7 @@ class NoMemory : public std::bad_alloc {
   std::string text_;
 };
 
-/// The parts written one after the other.
+/// The parts as one text.
 template <class... Parts>
 std::string joined(const Parts&... parts) {
   std::ostringstream text;

@@ -17,7 +17,7 @@ struct Locks {
   std::shared_mutex inside;
 };
 
-/// A forked process gets new ones: those who hold the old ones may be threads that it does not have.
+/// A forked process gets new locks: threads that it does not have may hold the old ones.
 Locks& locks() {
   static Locks* current = new Locks;
   [[maybe_unused]] static const int registered = pthread_atfork(nullptr, nullptr, [] { current = new Locks; });

@@ -3,8 +3,9 @@
 
 namespace svnet {
 
-/// While one lives, Parallel::shared() keeps its number of threads: algorithms keep memory per thread from one call of
-/// it to the next. One may live inside another in the same thread. For those who let other threads change the number.
+/// While an object of this class exists, the number of threads of Parallel::shared() does not change: algorithms keep
+/// memory per thread between two calls. For interfaces that let any thread change the number (C, Python). Objects may
+/// be nested in one thread.
 class FixedThreads {
  public:
   FixedThreads();
@@ -16,8 +17,8 @@ class FixedThreads {
   std::shared_lock<std::shared_mutex> lock_;
 };
 
-/// Waits until no FixedThreads lives, then resizes Parallel::shared(). Throws Error as Parallel::resize does, and where
-/// one lives in this thread, which would wait for itself.
+/// Waits until no FixedThreads exists, then resizes Parallel::shared(). Throws Error like Parallel::resize, and if one
+/// exists in this thread, which would wait for itself.
 void change_threads(int threads);
 
 }  // namespace svnet

@@ -8,14 +8,14 @@ namespace svnet {
 template <class Signature>
 class FunctionRef;
 
-/// A reference to anything that can be called: unlike std::function it owns nothing and never allocates, so what it
-/// refers to must outlive it. Made for parameters.
+/// A reference to a callable, for parameters. Unlike std::function it does not own the callable, which must outlive it,
+/// and never allocates.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:
   template <class Callable>
   requires(!std::is_same_v<std::remove_cvref_t<Callable>, FunctionRef>)
-      // A parameter takes any callable, and the constraint leaves copies alone.
+      // Not explicit, so that a parameter accepts any callable. The constraint excludes copies.
       // NOLINTNEXTLINE(google-explicit-constructor,bugprone-forwarding-reference-overload)
       FunctionRef(Callable&& callable)
       : callable_(const_cast<void*>(static_cast<const void*>(std::addressof(callable)))),

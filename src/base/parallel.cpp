@@ -66,8 +66,8 @@ void relax_cpu() {
 #endif
 }
 
-/// Waits for a condition for about as long as it takes to put a thread to sleep and wake it again; whether it came. The
-/// layers of a small network follow one another faster than that.
+/// Waits for a condition for about as long as it takes to put a thread to sleep and wake it again: the layers of a
+/// small network follow one another faster than that. Returns whether the condition holds.
 template <class Condition>
 bool spin_until(const Condition& condition) {
   constexpr auto kLongest = std::chrono::microseconds(50);
@@ -81,8 +81,8 @@ bool spin_until(const Condition& condition) {
   return false;
 }
 
-/// The chunks that one worker takes first: worker i's are the i-th part of all, so that calls over the same rows give a
-/// worker the rows that lie in its cache.
+/// The chunks that one worker takes first: the i-th part of all for worker i. So in calls over the same rows, a worker
+/// gets the rows that are in its cache.
 struct alignas(64) Part {
   std::atomic<Index> next{0};
   Index last = 0;
@@ -97,7 +97,7 @@ struct Job {
   std::exception_ptr error{};
   Index error_chunk = std::numeric_limits<Index>::max();
 
-  /// Runs what is left of the worker's own part, then what is left of the others'.
+  /// Runs the remaining chunks of the worker's own part, then those of the other parts.
   void work(int worker) {
     InsideBody inside;
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -128,8 +128,8 @@ struct Parallel::Pool {
   std::vector<std::thread> helpers;
   std::vector<Part> parts;  // of the open call
   std::atomic<int> threads{1};
-  /// Which call it is, whether helpers may still join it, and how many are in it. A call closes once its caller finds
-  /// no chunk left, and ends when the last helper has left: nobody waits for a helper that never came.
+  /// The number of the call, whether helpers may still join it, and how many have joined. A call closes when its caller
+  /// finds no chunk left, and ends when the last helper that joined has left. It never waits for other helpers.
   std::atomic<std::uint64_t> state{0};
   std::atomic<int> sleepers{0};            // helpers that must be woken
   std::atomic<bool> caller_sleeps{false};  // the last helper to leave must wake the caller
@@ -140,10 +140,10 @@ struct Parallel::Pool {
 
   static constexpr std::uint64_t kInside = 0x7fffffff, kOpen = kInside + 1, kCall = kOpen << 1;
 
-  /// A forked process has no helpers, only their handles: there is nobody to wake and nobody to join.
+  /// A forked process has the handles of the helper threads, but not the threads.
   bool forked() const { return getpid() != process; }
 
-  /// Throws Error where the system does not make that many; there are no helpers then.
+  /// Throws Error if the system cannot start that many threads; then there are no helpers.
   void start(int count) {
     parts = std::vector<Part>(static_cast<std::size_t>(count));
     stop = false;
@@ -157,23 +157,23 @@ struct Parallel::Pool {
     threads = count;
   }
 
-  /// A call is news to a helper that was not in it yet. `seen`: the last one it was in.
-  static bool is_news(std::uint64_t now, std::uint64_t seen) { return (now & kOpen) != 0 && now / kCall != seen; }
+  /// Whether there is an open call that a helper has not joined yet. `seen`: the last one it joined.
+  static bool is_new_call(std::uint64_t now, std::uint64_t seen) { return (now & kOpen) != 0 && now / kCall != seen; }
 
   void help(int worker) {
     for (std::uint64_t seen = 0;;) {
-      const auto news = [&] { return stop.load() || is_news(state.load(), seen); };
-      if (!(may_spin && spin_until(news))) {
+      const auto called = [&] { return stop.load() || is_new_call(state.load(), seen); };
+      if (!(may_spin && spin_until(called))) {
         std::unique_lock lock(mutex);
         ++sleepers;  // before the last look at the state: the caller opens a call first and then looks for sleepers
-        wake.wait(lock, news);
+        wake.wait(lock, called);
         --sleepers;
       }
       if (stop) return;
       std::uint64_t now = state.load();
-      while (is_news(now, seen) && !state.compare_exchange_weak(now, now + 1)) {
+      while (is_new_call(now, seen) && !state.compare_exchange_weak(now, now + 1)) {
       }
-      if (!is_news(now, seen)) continue;
+      if (!is_new_call(now, seen)) continue;
       seen = now / kCall;
       job->work(worker);
       const std::uint64_t left = --state;

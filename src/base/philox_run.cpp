@@ -23,7 +23,7 @@ void philox_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 
 
 #else
 
-/// A step in each lane of 64 bits, whose upper halves hold anything.
+/// One step in each lane of 64 bits. The upper halves of the lanes have no meaning.
 using Steps = hn::CappedTag<std::uint64_t, 8>;
 using StepVector = hn::Vec<Steps>;
 

@@ -9,21 +9,21 @@
 
 namespace svnet {
 
-/// Where the library says what it is doing. The default sinks discard everything; commands set their own.
-/// Set them before work starts: they are called from the thread that runs the work, never from pool threads.
+/// Where the library reports what it does. By default nothing is reported; commands set these functions.
+/// Set them before work starts. They are called from the thread that runs the work, never from pool threads.
 struct Messages {
-  /// One whole line, without its end.
+  /// One line, without the line break.
   std::function<void(std::string_view line)> line;
-  /// `done` of `total` steps of `task` after `seconds`; total 0 where it is unknown.
+  /// `done` of `total` steps of `task` after `seconds`. total is 0 if it is unknown.
   std::function<void(std::string_view task, Index done, Index total, double seconds)> progress;
 };
 
-/// Progress of one task, reported to `messages` at once, then at most ten times a second, and at the end of a known
-/// total.
+/// Reports the progress of one task to `messages`: at once, then at most ten times a second, and at the end if the
+/// total is known.
 class Progress {
  public:
   Progress(const Messages& messages, std::string task, Index total);
-  /// Call as often as is handy: a clock is read, little else happens.
+  /// Cheap: usually it only reads a clock.
   void update(Index done);
   double seconds() const;
 

@@ -7,8 +7,8 @@
 
 namespace svnet {
 
-/// What a random stream is for. Each purpose draws from its own stream, so that changing one use of randomness leaves
-/// the others alone. The numbers are part of every result: never change one.
+/// The purpose of a random stream. Each purpose has its own stream, so that a change in one use of randomness does not
+/// change the others. Every result depends on these values: never change one.
 enum class Stream : std::uint32_t {
   weights = 1,
   dropout = 2,
@@ -23,16 +23,16 @@ enum class Stream : std::uint32_t {
 };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`
-/// under `key`, as Random123 numbers the words.
+/// under `key`, with the order of words of Random123.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
-/// The words of sixteen steps of the counter, one after the other: with wide vectors they take little more time than
-/// one, whose rounds wait for each other.
+/// The words of sixteen steps of the counter, one after the other. With wide vectors this takes little more time than
+/// one step.
 inline constexpr std::size_t kPhiloxRun = 16;
 using PhiloxRun = std::array<std::uint32_t, 4 * kPhiloxRun>;
 void philox4x32_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words);
 
-/// The four words of step `step` of the stream number `index`: counter = (index low, index high, step, stream),
+/// The four words of step `step` of the stream with this index: counter = (index low, index high, step, stream),
 /// key = (seed low, seed high).
 inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Stream stream, std::uint64_t index,
                                                  std::uint32_t step) {
@@ -41,8 +41,8 @@ inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Stream stre
                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
 }
 
-/// The random numbers number `index` of a stream: key = seed (low word first), counter = index (low, high), step,
-/// stream. The same whatever the thread, rank or resume. A stream gives 2^34 words, then repeats.
+/// The random numbers of one index of a stream: key = seed (low word first), counter = index (low, high), step,
+/// stream. They do not depend on threads, ranks or interruptions. A stream gives 2^34 words, then repeats.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, Stream stream, std::uint64_t index = 0)

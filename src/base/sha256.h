@@ -7,14 +7,14 @@
 
 namespace svnet {
 
-/// SHA-256 (FIPS 180-4) of bytes that arrive in pieces. Content fingerprints are made with it.
+/// SHA-256 (FIPS 180-4) of bytes that are added in pieces. Fingerprints of contents use it.
 class Sha256 {
  public:
   Sha256& update(const void* data, std::size_t size);
   Sha256& update(std::string_view text) { return update(text.data(), text.size()); }
-  /// The length first, then the text, so that ("ab", "c") and ("a", "bc") differ.
+  /// Adds the length, then the text, so that ("ab", "c") and ("a", "bc") differ.
   Sha256& update_field(std::string_view text);
-  /// 64 lower-case hexadecimal digits of everything so far.
+  /// The hash of all bytes that were added, as 64 lower-case hexadecimal digits.
   std::string hex() const;
 
  private:

@@ -29,7 +29,7 @@ std::string_view digits_at(std::string_view text, std::size_t start) {
   return text.substr(start, end - start);
 }
 
-/// Length of the UTF-8 sequence that starts with `lead`, and the range of its second byte; length 0: none starts so.
+/// Length of the UTF-8 sequence that starts with `lead`, and the range of its second byte; length 0: not a lead byte.
 struct Sequence {
   std::size_t length;
   unsigned char second_low, second_high;

@@ -8,27 +8,27 @@
 
 namespace svnet {
 
-/// The candidate with the smallest edit distance (Levenshtein) to `name`; empty if none is near enough to be meant.
+/// The candidate with the smallest edit distance (Levenshtein) to `name`; empty if none is similar enough.
 std::string nearest_name(std::string_view name, std::span<const std::string> candidates);
 
-/// ", did you mean 'x'?" for the nearest candidate, or "; known: a, b, c" where none is near.
+/// ", did you mean 'x'?" for the nearest candidate, or "; known: a, b, c" if none is near.
 std::string suggestion(std::string_view name, std::span<const std::string> candidates);
 
 /// The items with the separator between them.
 std::string joined_with(std::string_view separator, std::span<const std::string> items);
 
-/// "99.5 %" of a share of 0.995.
+/// "99.5 %" for 0.995.
 std::string percent(double share);
 
-/// What of a file or of a library's message may reach a terminal: tabs and ends of lines become spaces, other control
+/// Text of a file or of another library, made safe for a terminal: tabs and line breaks become spaces, other control
 /// characters '?'.
 char printable(char c);
 std::string printable(std::string_view text);
 
-/// With A to Z in lower case.
+/// The text with A to Z in lower case.
 std::string lower_case(std::string_view text);
 
-/// Whether all of `text` is a number, which `number` receives then. In any locale; nothing may stand around it.
+/// Whether all of `text` is a number; then sets `number`. The locale does not matter; spaces are not allowed.
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
   const char* end = text.data() + text.size();
@@ -36,7 +36,7 @@ bool parse_number(std::string_view text, Number& number) {
   return result.ec == std::errc() && result.ptr == end;
 }
 
-/// Whether `text` is well-formed UTF-8 (RFC 3629) without NUL, so that it can be stored and given to anyone.
+/// Whether `text` is well-formed UTF-8 (RFC 3629) without NUL, so that any program can read it.
 bool is_plain_utf8(std::string_view text);
 
 /// Less-than in natural order: runs of digits compare as numbers ("2" before "10"), everything else byte by byte.

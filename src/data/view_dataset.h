@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exif_orientation.h"
 #include "base/index.h"
 
 namespace svnet {
@@ -37,7 +38,12 @@ struct ViewDataset {
   };
 
   std::filesystem::path root;
-  std::vector<std::string> categories;
+  /// How the views' pixels are read.
+  ExifOrientation exif_orientation = ExifOrientation::ignore;
+  /// Files and folders that other programs left and that were passed over, and files beside the categories. Relative to
+  /// the root.
+  std::vector<std::string> ignored;
+  std::vector<std::string> categories;  // in Unicode's composed form (NFC)
   std::vector<Object> objects;
   std::vector<Pose> poses;
   std::vector<View> views;

@@ -10,6 +10,8 @@ struct DepthImage {
   Index height = 0;
   Index width = 0;
   std::vector<float> metres;
+  /// The length in metres of the unit that the file was read in (image/depth_unit.h); 0: none.
+  double unit_m = 0;
 };
 
 }  // namespace svnet

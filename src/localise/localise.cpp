@@ -4,8 +4,10 @@
 #include <cmath>
 #include <numbers>
 #include <opencv2/imgproc.hpp>
+#include <optional>
 
 #include "base/error.h"
+#include "image/depth_unit.h"
 #include "image/opencv_image.h"
 #include "localise/enclosing_circle.h"
 #include "localise/foreground.h"
@@ -38,6 +40,140 @@ Image image_of(const cv::Mat& picture) {
   Image image{rgb.rows, rgb.cols, {}};
   for (int y = 0; y < rgb.rows; ++y) image.rgb.insert(image.rgb.end(), rgb.ptr(y), rgb.ptr(y) + 3 * rgb.cols);
   return image;
+}
+
+/// The height in the world that most of a depth picture has: that of the table.
+std::optional<double> common_height_m(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
+                                      const cv::Mat1f& depth) {
+  constexpr int kStep_px = 4;
+  std::vector<double> heights;
+  for (int y = 0; y < depth.rows; y += kStep_px)
+    for (int x = 0; x < depth.cols; x += kStep_px)
+      if (depth(y, x) > 0) heights.push_back((camera_to_world * deprojected_m(camera, x, y, depth(y, x))).z());
+  if (heights.empty()) return std::nullopt;
+  const auto middle = heights.begin() + static_cast<std::ptrdiff_t>(heights.size() / 2);
+  std::nth_element(heights.begin(), middle, heights.end());
+  return *middle;
+}
+
+/// Throws Error if the table lies far from the world's z = 0, but near it if depth is read in another of kDepthUnits.
+void check_unit(double unit_m, double camera_m, double table_m) {
+  constexpr double kFar_m = 0.3, kNearShare = 0.05;
+  if (unit_m <= 0 || std::abs(table_m) < kFar_m) return;
+  const DepthUnit* best = nullptr;
+  double best_table_m = kNearShare * std::abs(camera_m);
+  for (const DepthUnit& unit : kDepthUnits) {
+    const double other_m = camera_m - (camera_m - table_m) * unit.metres / unit_m;
+    if (std::abs(other_m) < best_table_m) best = &unit, best_table_m = std::abs(other_m);
+  }
+  check(best == nullptr, "[localise] with depth in ", depth_unit_name(unit_m), " the table is at z = ", table_m,
+        " m in the world, with depth in ", best == nullptr ? "" : best->name,
+        " it is at 0: the unit is probably wrong; give it (--depth-unit)");
+}
+
+/// Throws Error unless the table around the object is horizontal in the world, up to what a careless calibration does.
+void check_horizontal(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const cv::Mat1f& background,
+                      const cv::Mat1b& object) {
+  constexpr int kLeastMargin_px = 40, kRounds = 4;
+  constexpr double kSteepest_deg = 20;
+  const cv::Rect box = cv::boundingRect(object);
+  const int margin = std::max({kLeastMargin_px, box.width / 2, box.height / 2});
+  const cv::Rect region = cv::Rect(box.x - margin, box.y - margin, box.width + 2 * margin, box.height + 2 * margin) &
+                          cv::Rect(0, 0, background.cols, background.rows);
+  std::vector<Eigen::Vector3d> points;
+  for (int y = region.y; y < region.br().y; y += 2)
+    for (int x = region.x; x < region.br().x; x += 2)
+      if (background(y, x) > 0) points.push_back(deprojected_m(camera, x, y, background(y, x)));
+  constexpr std::size_t kLeast = 200;
+  if (points.size() < kLeast) return;
+  // Least squares of z = a x + b y + c, repeated with the two thirds of the points that are nearest to the plane.
+  std::vector<Eigen::Vector3d> kept = points;
+  Eigen::Vector3d plane = Eigen::Vector3d::Zero();
+  for (int round = 0; round < kRounds; ++round) {
+    Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+    Eigen::Vector3d right = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& p : kept) {
+      const Eigen::Vector3d row(p.x(), p.y(), 1);
+      normal += row * row.transpose();
+      right += row * p.z();
+    }
+    plane = normal.ldlt().solve(right);
+    const auto error = [&](const Eigen::Vector3d& p) {
+      return std::abs(plane.dot(Eigen::Vector3d(p.x(), p.y(), 1)) - p.z());
+    };
+    const auto end = points.begin() + static_cast<std::ptrdiff_t>(points.size() * 2 / 3);
+    std::nth_element(points.begin(), end, points.end(),
+                     [&](const Eigen::Vector3d& p, const Eigen::Vector3d& q) { return error(p) < error(q); });
+    kept.assign(points.begin(), end);
+  }
+  const Eigen::Vector3d up = camera_to_world.linear() * Eigen::Vector3d(plane.x(), plane.y(), -1).normalized();
+  const double tilt_deg = std::acos(std::min(1.0, std::abs(up.z()))) * 180 / std::numbers::pi;
+  check(tilt_deg < kSteepest_deg, "[localise] the table is tilted by ", std::lround(tilt_deg),
+        " degrees in the world; give the pose of the camera's optical frame (x right, y down, z forward) in a world "
+        "with z up");
+}
+
+/// Throws Error if the object is a hole in the table: then the pictures are exchanged.
+void check_order(const Foreground& foreground, const cv::Mat1b& object, const cv::Mat1f& before,
+                 const cv::Mat1f& after) {
+  constexpr float kRise_m = 0.002f;
+  constexpr double kMeanFall_m = 0.0005;
+  constexpr int kLeast_px = 8;
+  cv::Mat1b around;
+  cv::dilate(object, around, cv::getStructuringElement(cv::MORPH_ELLIPSE, {25, 25}));
+  int rose = 0, fell = 0, measured = 0;
+  double sum_m = 0;
+  for (int y = 0; y < object.rows; ++y)
+    for (int x = 0; x < object.cols; ++x) {
+      if (around(y, x) == 0 || before(y, x) <= 0 || after(y, x) <= 0) continue;
+      const float rise = foreground.rise_m(y, x);
+      rose += rise > kRise_m, fell += rise < -kRise_m;
+      if (object(y, x) != 0) ++measured, sum_m += static_cast<double>(rise);
+    }
+  check((fell < kLeast_px || fell <= rose) && (measured == 0 || sum_m / measured > -kMeanFall_m),
+        "[localise] what is new lies below the table; are the pictures of the table and of the object exchanged? ",
+        fell, " pixels are further from the camera than before, ", rose, " are nearer");
+}
+
+/// Throws Error unless a quarter of the object's pixels have a depth in both pictures, and half of its contour has one
+/// within a pixel. Cameras measure none of black, shiny and transparent surfaces; the rest, such as the ground of a cup
+/// or pixels of the table, would stand for the object.
+void check_measured(const cv::Mat1b& object, const std::vector<std::vector<cv::Point>>& contours,
+                    const cv::Mat1f& before, const cv::Mat1f& after) {
+  constexpr double kShare = 0.25, kContourShare = 0.5;
+  constexpr const char* kAdvice =
+      " are needed; cameras measure none of black, shiny or transparent objects: cover it, or give its place and size";
+  const int pixels = cv::countNonZero(object), needed = static_cast<int>(std::ceil(kShare * pixels));
+  for (const auto& [depth, which] : {std::pair(&before, "background"), std::pair(&after, "current")}) {
+    const int measured = cv::countNonZero(object & (*depth > 0));
+    check(measured >= needed, "[localise] the ", which, " depth picture has depth at ", measured, " of the object's ",
+          pixels, " pixels, at least ", needed, kAdvice);
+  }
+  cv::Mat1b near;
+  cv::dilate(object & (after > 0), near, cv::Mat1b::ones(3, 3));
+  int length = 0, measured = 0;
+  for (const auto& contour : contours)
+    for (const cv::Point& p : contour) ++length, measured += near(p) != 0;
+  const int needed_length = static_cast<int>(std::ceil(kContourShare * length));
+  check(measured >= needed_length, "[localise] the current depth picture has depth at ", measured, " of the ", length,
+        " pixels of the object's contour, at least ", needed_length, kAdvice);
+}
+
+/// Throws Error for an object that is too large for a table: then depth is in another unit.
+void check_size(const LocalisedObject& object, double unit_m, double distance_m) {
+  constexpr double kLongest_m = 1.5, kNearest_m = 0.15, kFurthest_m = 5;
+  const double longest_m = std::max(object.length_m, object.height_m);
+  if (longest_m <= kLongest_m) return;
+  std::string units;
+  for (const DepthUnit& unit : kDepthUnits) {
+    const double scale = unit.metres / (unit_m > 0 ? unit_m : 1);
+    if (longest_m * scale > kLongest_m || distance_m * scale < kNearest_m || distance_m * scale > kFurthest_m) continue;
+    units += joined(units.empty() ? "" : ", ", longest_m * scale, " m with depth in ", unit.name);
+  }
+  fail("[localise] the object is ", object.length_m, " x ", object.width_m, " x ", object.height_m,
+       " m large, more than the ", kLongest_m, " m of anything on a table; is the unit of depth ",
+       unit_m > 0 ? "(" + depth_unit_name(unit_m) + ") " : "", "wrong? It would be ",
+       units.empty() ? "too large or too near in any" : units, "; see --depth-unit");
 }
 
 /// The pixels of the object. Parts less than about 16 pixels apart count as one object.
@@ -151,17 +287,26 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
                          const RgbdView& current, const LocaliseOptions& options) {
   const std::string problem = intrinsics_problem(camera);
   check(problem.empty(), "[localise] ", problem);
-  check(camera_to_world.linear()(2, 2) < 0,
-        "[localise] the camera looks upwards; give the pose of its optical frame (z forward) in a world with z up");
+  // The looking direction's z. A pose of another frame of a camera above the table has 0 here, up to rounding, or more.
+  const double looking_z = camera_to_world.linear()(2, 2);
+  constexpr double kLeastDown = 0.1;
+  check(looking_z<-kLeastDown, "[localise] the camera looks ", looking_z> kLeastDown ? "upwards" : "sideways",
+        "; give the pose of its optical frame (z forward) in a world with z up");
   check_fits(camera, background, "background");
   check_fits(camera, current, "current");
   const cv::Mat3b before = matrix_of(background.rgb), after = matrix_of(current.rgb);
   const cv::Mat1f depth_before = depth_of(background.depth), depth_after = depth_of(current.depth);
+  const double camera_m = camera_to_world.translation().z(), unit_m = background.depth.unit_m;
+  const double table_m = common_height_m(camera, camera_to_world, depth_before).value_or(0);
+  if (!options.unit_is_certain) check_unit(unit_m, camera_m, table_m);
   const Foreground foreground = find_foreground(before, depth_before, after, depth_after);
   const cv::Mat1b object = object_mask(foreground.mask, options.take_largest);
 
   std::vector<std::vector<cv::Point>> contours;
   cv::findContours(object, contours, cv::RETR_EXTERNAL, cv::CHAIN_APPROX_NONE);
+  check_measured(object, contours, depth_before, depth_after);
+  check_order(foreground, object, depth_before, depth_after);
+  check_horizontal(camera, camera_to_world, depth_before, object);
   std::vector<cv::Point2f> outline;  // in the world's xy plane, millimetres
   double pixel_mm = 0;
   cv::Mat1b inside;
@@ -195,6 +340,7 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   result.centre_m = {middle.x / 1000.0, middle.y / 1000.0, height.table_m + height.object_m / 2};
   result.diagonal_m = std::sqrt(result.length_m * result.length_m + result.width_m * result.width_m +
                                 result.height_m * result.height_m);
+  check_size(result, unit_m, camera_m - height.table_m);
   if (options.keep_steps)
     result.steps = pictures_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
   return result;

@@ -20,6 +20,8 @@ struct RgbdView {
 struct LocaliseOptions {
   bool take_largest = false;  // of several objects, measure the largest; otherwise they are an Error
   bool keep_steps = false;    // make LocalisedObject::steps
+  /// Whether somebody has said in which unit depth is stored. Otherwise the table's height may make it doubtful.
+  bool unit_is_certain = false;
 };
 
 /// The names of the pictures of the steps: the difference of the colours, the object's pixels, their contour with the
@@ -44,7 +46,10 @@ struct LocalisedObject {
 /// pose of the optical frame in a world whose z axis is vertical.
 ///
 /// Throws Error if the pictures do not have the camera's size, nothing is found, the object touches the border, there
-/// are several objects, the object lies below the table, or the camera does not look down.
+/// are several objects, less than a quarter of the object's pixels have depth, the object lies below the table (the
+/// pictures are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more,
+/// the object is larger than 1.5 m, or the unit of depth is doubtful: the table is far from z = 0, and with another
+/// unit it is not.
 LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
                          const RgbdView& current, const LocaliseOptions& = {});
 

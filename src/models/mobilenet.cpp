@@ -18,7 +18,7 @@ NodeId separable_block(Graph& g, NodeId x, int number, Index filters, Index stri
   return activation(g, "conv_pw_" + id + "_relu", x, Activation::relu6);
 }
 
-Graph graph(Index size, bool top) {
+Graph mobilenet_graph(Index size, bool top) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "conv1", x, {.filters = 32, .kernel = 3, .stride = 2});
@@ -46,7 +46,7 @@ BackboneKind mobilenet() {
           .pooled = "global_average_pooling2d",
           .last_block_input = "conv_pw_12_relu",
           .preprocessing = {.mode = PixelMode::tf, .height = 224, .width = 224},
-          .graph = graph,
+          .graph = mobilenet_graph,
           .weight_files = {"mobilenet_1_0_224_tf_no_top.h5", "mobilenet_1_0_224_tf.h5"}};
 }
 

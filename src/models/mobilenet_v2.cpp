@@ -31,7 +31,7 @@ NodeId inverted_residual(Graph& g, NodeId input, int number, Index expansion, In
   return channels == filters && stride == 1 ? g.add(prefix + "add", AddLayer{}, {input, x}) : x;
 }
 
-Graph graph(Index size, bool top) {
+Graph mobilenet_v2_graph(Index size, bool top) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "Conv1", x, {.filters = 32, .kernel = 3, .stride = 2});
@@ -60,7 +60,7 @@ BackboneKind mobilenet_v2() {
           .pooled = "global_average_pooling2d",
           .last_block_input = "block_15_add",
           .preprocessing = {.mode = PixelMode::tf, .height = 224, .width = 224},
-          .graph = graph,
+          .graph = mobilenet_v2_graph,
           .weight_files = {"mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224_no_top.h5",
                            "mobilenet_v2_weights_tf_dim_ordering_tf_kernels_1.0_224.h5"}};
 }

@@ -34,7 +34,7 @@ NodeId block(Graph& g, const std::string& name, NodeId input, Index filters) {
   return activation(g, name + "_act", x, Activation::relu);
 }
 
-Graph graph(Index size, bool) {
+Graph tiny_xception_graph(Index size, bool) {
   Graph g;
   NodeId x = g.input("input_1", {size, size, 3});
   x = conv(g, "block1_conv1", x, {.filters = 24, .kernel = 3, .stride = 2});
@@ -53,7 +53,7 @@ BackboneKind tiny_xception() {
           .pooled = "avg_pool",
           .last_block_input = "block4_act",
           .preprocessing = {.mode = PixelMode::tf, .height = 96, .width = 96},
-          .graph = graph,
+          .graph = tiny_xception_graph,
           .weight_files = {"tiny_xception.h5"}};
 }
 

@@ -72,7 +72,7 @@ class Builder {
   int adds_ = 0, shortcuts_ = 0;
 };
 
-Graph graph(Index size, bool top) { return Builder().build(size, top); }
+Graph xception_graph(Index size, bool top) { return Builder().build(size, top); }
 
 }  // namespace
 
@@ -81,7 +81,7 @@ BackboneKind xception() {
           .pooled = "avg_pool",
           .last_block_input = "add_11",
           .preprocessing = {.mode = PixelMode::tf, .height = 299, .width = 299},
-          .graph = graph,
+          .graph = xception_graph,
           .weight_files = {"xception_weights_tf_dim_ordering_tf_kernels_notop.h5",
                            "xception_weights_tf_dim_ordering_tf_kernels.h5"}};
 }

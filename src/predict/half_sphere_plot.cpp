@@ -39,10 +39,10 @@ Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float>
   HalfSphereCanvas canvas;
   std::vector<std::size_t> order = best_first(scores);
   for (auto i = order.rbegin(); i != order.rend(); ++i) {
-    canvas.disc(kOutline, poses[*i], kDot_px + 1);
-    canvas.disc(scale_colour(range > 0 ? (scores[*i] - lowest) / range : 1), poses[*i], kDot_px);
+    canvas.disc(kOutline, clamped_pose(poses[*i]), kDot_px + 1);
+    canvas.disc(scale_colour(range > 0 ? (scores[*i] - lowest) / range : 1), clamped_pose(poses[*i]), kDot_px);
   }
-  canvas.circle(kBest, poses[best], kDot_px + 5, 4);
+  canvas.circle(kBest, clamped_pose(poses[best]), kDot_px + 5, 4);
   return canvas.take();
 }
 

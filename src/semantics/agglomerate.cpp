@@ -101,8 +101,7 @@ HWY_INLINE void mirror(const AgglomerationState& s) {
 }
 
 /// Copies the input distances below the diagonal, mirrors them, and finds the nearest later slot of each slot.
-template <Linkage linkage>
-HWY_INLINE void start(const AgglomerationState& s) {
+HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
   const Floats d;
   const Ints di;
   const Index lanes = hn::Lanes(d);
@@ -208,8 +207,8 @@ HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
 }
 
 /// Merges slot b into the earlier slot a. Returns the new candidate.
-template <Linkage linkage, int kVectors>
-HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
+template <bool kIsWard, int kVectors>
+HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a, Index b) {
   const Floats d;
   const Ints di;
   const Index lanes = hn::Lanes(d);
@@ -238,13 +237,13 @@ HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
     const Index i = v * lanes;
     const auto to_a = hn::Load(d, row_a + i), to_b = hn::Load(d, row_b + i);
     FloatVector value;
-    if constexpr (linkage == Linkage::ward) {
+    if constexpr (kIsWard) {
       const auto size = hn::Load(d, s.size + i);
       const auto sum = hn::Add(hn::Mul(hn::Add(size, of_a), to_a), hn::Mul(hn::Add(size, of_b), to_b));
       value = hn::Div(hn::Sub(sum, hn::Mul(size, between)), hn::Add(size, both));
-    } else if constexpr (linkage == Linkage::average) {
+    } else if (linkage == Linkage::average) {
       value = hn::Div(hn::Add(hn::Mul(of_a, to_a), hn::Mul(of_b, to_b)), both);
-    } else if constexpr (linkage == Linkage::complete) {
+    } else if (linkage == Linkage::complete) {
       value = hn::Max(to_a, to_b);
     } else {
       value = hn::Min(to_a, to_b);
@@ -265,7 +264,7 @@ HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
     }
     other = smallest_bound<kVectors>(s);
   }
-  if (linkage == Linkage::ward || linkage == Linkage::average) set(s.size, a, both);
+  if (kIsWard || linkage == Linkage::average) set(s.size, a, both);
   const Candidate next = conclude<kVectors>(s, a, later, other);
 
   float* HWY_RESTRICT to = s.dissimilarity + a;
@@ -279,43 +278,38 @@ HWY_INLINE Candidate merge(const AgglomerationState& s, Index a, Index b) {
   return next;
 }
 
-template <Linkage linkage, int kVectors>
-void agglomerate_by(Index k, const AgglomerationState& given) {
-  const AgglomerationState s = given;  // a local copy, so that the compiler knows that stores do not alias it
-  start<linkage>(s);
+/// Ward's formula is compiled by itself. The others are so short that one body chooses among them for each vector.
+template <bool kIsWard, int kVectors>
+void agglomerate_by(Linkage linkage, Index k, const AgglomerationState& given) {
+  const AgglomerationState s = given;  // a local copy, which the compiler knows no vector store to change
+  start(linkage, s);
   const Index first = smallest_bound<kVectors>(s).slot;
   Candidate next{first, s.nearest[first]};
   for (Index clusters = s.n; clusters > k; --clusters) {
     while (!up_to_date(s, next)) next = search<kVectors>(s, next.slot);
-    next = merge<linkage, kVectors>(s, next.slot, next.nearest);
+    next = merge<kIsWard, kVectors>(linkage, s, next.slot, next.nearest);
   }
 }
 
-template <Linkage linkage, int... vectors>
+template <bool kIsWard, int... vectors>
 constexpr auto agglomerations(std::integer_sequence<int, vectors...>) {
-  return std::array{&agglomerate_by<linkage, vectors>...};
+  return std::array{&agglomerate_by<kIsWard, vectors>...};
 }
 
-/// Chooses a version that is unrolled for its number of vectors, for up to 8 vectors.
-template <Linkage linkage>
-void agglomerate_by(Index k, const AgglomerationState& s) {
+/// Loops over a known number of vectors are unrolled: that is worth its code if few vectors hold a problem.
+template <bool kIsWard>
+void agglomerate_by_vectors(Linkage linkage, Index k, const AgglomerationState& s) {
   constexpr int kMostUnrolled = hn::MaxLanes(Floats()) >= 8 ? 8 : 0;
-  constexpr auto kByVectors = agglomerations<linkage>(std::make_integer_sequence<int, kMostUnrolled + 1>());
+  constexpr auto kByVectors = agglomerations<kIsWard>(std::make_integer_sequence<int, kMostUnrolled + 1>());
   const Index count = vectors<0>(s);
-  kByVectors[count <= kMostUnrolled ? count : 0](k, s);
+  kByVectors[static_cast<std::size_t>(count <= kMostUnrolled ? count : 0)](linkage, k, s);
 }
 
 void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {
-  switch (linkage) {
-    case Linkage::ward:
-      return agglomerate_by<Linkage::ward>(k, s);
-    case Linkage::average:
-      return agglomerate_by<Linkage::average>(k, s);
-    case Linkage::complete:
-      return agglomerate_by<Linkage::complete>(k, s);
-    case Linkage::single:
-      return agglomerate_by<Linkage::single>(k, s);
-  }
+  if (linkage == Linkage::ward)
+    agglomerate_by_vectors<true>(linkage, k, s);
+  else
+    agglomerate_by_vectors<false>(linkage, k, s);
 }
 
 }  // namespace HWY_NAMESPACE

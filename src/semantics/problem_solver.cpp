@@ -7,7 +7,7 @@
 namespace svnet {
 namespace {
 
-constexpr Index kChunk = 64;  // problems that a thread solves as one chunk
+constexpr Index kSolvedChunk = 64;  // problems that a thread solves as one chunk
 
 const DistanceMatrix& checked(const DistanceMatrix& distances, const ClusteringProblems& problems) {
   check(distances.size() == problems.views(), "[scores] distances of ", distances.size(), " views, but problems of ",
@@ -72,7 +72,7 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
 void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {
   while (first < last) {
     const std::uint64_t count = batch_.draw(scoring_.seed, first, last - first);
-    parallel_.for_chunks(count, kChunk, [&](Index begin, Index end, int worker) {
+    parallel_.for_chunks(count, kSolvedChunk, [&](Index begin, Index end, int worker) {
       for (Index p = begin; p < end; ++p) {
         if (p + 1 < end) prefetch(p + 1);
         solve_one(p, first + p, workers_[worker]);

@@ -16,16 +16,16 @@ bool is_cut_off(const Shot& shot) {
 }
 
 /// Places the object, localises it and captures its views. Throws Error if it is not found or cut off.
-CollectedPose attempt(const Mesh& mesh, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
-  const PosedObject posed = pose_object(mesh, pose, seed, number);
-  const Overview overview = capture_overview(posed, seed, number);
+CollectedPose attempt(const RestingMesh& object, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
+  const PosedObject posed = pose_object(object.mesh, object.resting, pose, seed, number);
+  const Scene scene(&object.mesh, posed.object_to_world, posed.setting);
+  const Overview overview = capture_overview(posed, scene, seed, number);
   CollectedPose result{
       posed,
       overview,
       localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
                {overview.current.rgb, overview.current.depth}),
       {}};
-  const Scene scene(&mesh, posed.object_to_world, posed.setting);
   for (std::size_t view = 0; view < posed.views.size(); ++view) {
     result.views.push_back(capture_view(posed, scene, result.object, size, seed, number, view));
     check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
@@ -36,12 +36,13 @@ CollectedPose attempt(const Mesh& mesh, Index pose, Index size, std::uint64_t se
 
 }  // namespace
 
-PoseCollection collect_pose(const Mesh& mesh, Index pose, Index size, std::uint64_t seed, std::uint32_t number) {
+PoseCollection collect_pose(const RestingMesh& object, Index pose, Index size, std::uint64_t seed,
+                            std::uint32_t number) {
   constexpr std::uint32_t kMostAttempts = 16;
   PoseCollection result;
   while (!result.pose && result.attempts < kMostAttempts) {
     try {
-      result.pose = attempt(mesh, pose, size, seed * 1009 + result.attempts++, number);
+      result.pose = attempt(object, pose, size, seed * 1009 + result.attempts++, number);
     } catch (const Error& error) {
       result.problem = joined("not collected in ", kMostAttempts, " tries: ", error.what());
     }

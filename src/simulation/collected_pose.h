@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "simulation/collection.h"
+#include "simulation/object_in_work.h"
 
 namespace svnet {
 
@@ -25,6 +26,6 @@ struct PoseCollection {
 /// Collects pose `pose` of an object with views of size x size pixels. An attempt fails if the object is not found in
 /// the overview or is cut off in a view; the next one has another light and another place on the table. After 16 failed
 /// attempts the pose is given up. `number` as for pose_object.
-PoseCollection collect_pose(const Mesh&, Index pose, Index size, std::uint64_t seed, std::uint32_t number);
+PoseCollection collect_pose(const RestingMesh&, Index pose, Index size, std::uint64_t seed, std::uint32_t number);
 
 }  // namespace svnet

@@ -21,10 +21,14 @@ PictureKey key_of(std::uint64_t seed, std::uint32_t number, std::uint32_t pictur
 }  // namespace
 
 PosedObject pose_object(const Mesh& mesh, Index pose, std::uint64_t seed, std::uint32_t number) {
+  return pose_object(mesh, resting_poses(mesh), pose, seed, number);
+}
+
+PosedObject pose_object(const Mesh& mesh, std::span<const RestingPose> resting, Index pose, std::uint64_t seed,
+                        std::uint32_t number) {
   check(number < 0x10000, "[collect] there are more than 65536 objects and poses");
   RandomStream random(seed, Stream::collection, std::uint64_t{key_of(seed, number, kPlan).number} << 32);
   const auto between = [&](double low, double high) { return low + (high - low) * random.uniform(); };
-  const auto resting = resting_poses(mesh);
   PosedObject posed{&mesh, Eigen::Isometry3d::Identity(), random_setting(random), {}};
   posed.object_to_world.linear() = (Eigen::AngleAxisd(between(0, 2 * std::numbers::pi), Eigen::Vector3d::UnitZ()) *
                                     resting[static_cast<std::size_t>(pose) % resting.size()].rotation)
@@ -55,16 +59,20 @@ Intrinsics view_camera(Index size) {
 }
 
 Overview capture_overview(const PosedObject& posed, std::uint64_t seed, std::uint32_t number) {
+  return capture_overview(posed, Scene(posed.mesh, posed.object_to_world, posed.setting), seed, number);
+}
+
+Overview capture_overview(const PosedObject& posed, const Scene& scene, std::uint64_t seed, std::uint32_t number) {
   constexpr int kSamples = 2;
   RandomStream random(seed, Stream::collection,
                       std::uint64_t{key_of(seed, number, kOverview).number} << 32 | 0xffffffff);
   const auto brighter = static_cast<float>(0.97 + 0.06 * random.uniform());
-  const auto picture = [&](const Mesh* mesh, std::uint32_t index, float exposure) {
-    const Scene scene(mesh, posed.object_to_world, posed.setting);
+  const auto picture = [&](const Scene& seen, std::uint32_t index, float exposure) {
     const PictureKey key = key_of(seed, number, index);
-    return sensor_picture(scene.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
+    return sensor_picture(seen.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
   };
-  return {picture(nullptr, kBackground, 1), picture(posed.mesh, kOverview, brighter)};
+  const Scene empty(nullptr, posed.object_to_world, posed.setting);
+  return {picture(empty, kBackground, 1), picture(scene, kOverview, brighter)};
 }
 
 CapturedView capture_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,

@@ -1,9 +1,11 @@
 #pragma once
 #include <functional>
+#include <span>
 #include <string>
 
 #include "localise/localise.h"
 #include "simulation/mesh.h"
+#include "simulation/resting.h"
 #include "simulation/scene.h"
 #include "simulation/sensor.h"
 
@@ -22,6 +24,9 @@ struct PosedObject {
 /// Pose `pose` of an object. Successive poses use its resting poses in turn; the object is rotated about the vertical
 /// and moved at random. The mesh must outlive the result. Throws Error if number >= 2^16.
 PosedObject pose_object(const Mesh&, Index pose, std::uint64_t seed, std::uint32_t number);
+/// With the mesh's resting poses, which take a second for a large mesh.
+PosedObject pose_object(const Mesh&, std::span<const RestingPose>, Index pose, std::uint64_t seed,
+                        std::uint32_t number);
 
 /// The camera of the overview: 640x480, 1 m above the table, looking down.
 Intrinsics overview_camera();
@@ -36,6 +41,8 @@ struct Overview {
   RgbdPicture background, current;
 };
 Overview capture_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
+/// With the scene of the posed object.
+Overview capture_overview(const PosedObject&, const Scene&, std::uint64_t seed, std::uint32_t number);
 
 /// View `view` of posed.views: the camera looks at the localised object's centre from its viewing radius.
 struct CapturedView {

@@ -1,16 +1,15 @@
 #include "simulation/object_source.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdio>
 #include <map>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "io/views/dataset_folder.h"
 #include "simulation/catalogue.h"
-#include "simulation/collection.h"
 #include "simulation/meshes/mesh_file.h"
+#include "simulation/meshes/mesh_unit.h"
+#include "simulation/meshes/object_folder.h"
 
 namespace svnet {
 namespace {
@@ -61,37 +60,18 @@ std::vector<ObjectSource> sources_of_category(const fs::path& folder,
   const std::string category = folder.filename().string();
   std::vector<ObjectSource> sources;
   std::map<std::string, fs::path> named;
-  for (const fs::path& file : named_entries(folder, is_mesh_name, line)) {
-    const std::string object = file.stem().string();
+  const auto may_be_object = [](const fs::path& entry) { return fs::is_directory(entry) || is_mesh_name(entry); };
+  for (const fs::path& entry : named_entries(folder, may_be_object, line)) {
+    const bool has_folder = fs::is_directory(entry);
+    const fs::path file = has_folder ? mesh_of_folder(entry, line) : entry;
+    if (file.empty()) continue;
+    const std::string object = has_folder ? entry.filename().string() : entry.stem().string();
     const auto [twin, is_first] = named.emplace(object, file);
     check(is_first, twin->second.string(), " and ", file.string(), ": both are the object '", object,
           "'; rename one of them");
-    sources.push_back({category, object, 0, file});
+    sources.push_back({category, object, 0, file, folder.parent_path()});
   }
   return sources;
-}
-
-std::string length_text(double metres) {
-  char text[32];
-  std::snprintf(text, sizeof text, metres < 0.01 ? "%.3g mm" : "%.3g m", metres < 0.01 ? metres * 1000 : metres);
-  return text;
-}
-
-/// A sentence that suggests metres, millimetres or centimetres if an object `units` long then has a household size.
-std::string unit_hint(double units) {
-  for (const double unit : {1.0, 0.001, 0.01})
-    if (units * unit >= 0.03 && units * unit <= 0.5)
-      return joined(" With --unit ", unit, " it would be ", length_text(units * unit), ".");
-  return "";
-}
-
-void check_size(const Mesh& mesh, const std::string& name, double metres_per_unit) {
-  Eigen::AlignedBox3f box;
-  for (const Vec3& point : mesh.points) box.extend(point);
-  const double length_m = box.sizes().cast<double>().maxCoeff();
-  check(length_m >= kSmallestObject_m && length_m <= kLargestObject_m, name, ": is ", length_text(length_m),
-        " long, objects may be ", length_text(kSmallestObject_m), " to ", length_text(kLargestObject_m),
-        "; is its unit right?", unit_hint(length_m / metres_per_unit));
 }
 
 }  // namespace
@@ -107,7 +87,7 @@ std::vector<ObjectSource> catalogue_sources(const std::vector<std::string>& cate
 
 std::vector<ObjectSource> mesh_sources(const fs::path& folder, const std::vector<std::string>& categories,
                                        const std::function<void(const std::string&)>& line) {
-  constexpr const char* kExpected = "; expected CATEGORY/NAME.obj, .ply, .stl or .glb in it";
+  constexpr const char* kExpected = "; expected CATEGORY/NAME.obj, .ply, .stl or .glb, or CATEGORY/NAME/*.obj, in it";
   const auto folders = named_entries(
       folder, [](const fs::path& entry) { return fs::is_directory(entry); }, line);
   std::vector<std::string> names;
@@ -127,11 +107,11 @@ std::vector<ObjectSource> mesh_sources(const fs::path& folder, const std::vector
   return sources;
 }
 
-Mesh mesh_of(const ObjectSource& source, double metres_per_unit, std::uint64_t seed) {
+Mesh mesh_of(const ObjectSource& source, std::optional<double> unit, std::uint64_t seed,
+             const std::function<void(const std::string&)>& line) {
   if (source.file.empty()) return catalogue_object(source.category, source.design, seed);
-  Mesh mesh = read_mesh(source.file, metres_per_unit);
-  check_size(mesh, source.file.string(), metres_per_unit);
-  return mesh;
+  const auto unit_of = [&](double length) { return metres_per_unit(length, source.file.string(), unit, line); };
+  return read_mesh(source.file, {source.collection, unit_of, line});
 }
 
 }  // namespace svnet

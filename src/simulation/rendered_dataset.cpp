@@ -14,6 +14,7 @@
 #include "io/images/image_file.h"
 #include "io/views/camera_file.h"
 #include "simulation/collected_pose.h"
+#include "simulation/object_in_work.h"
 #include "simulation/object_source.h"
 
 namespace svnet {
@@ -82,6 +83,7 @@ class RenderJob {
         sources_(options.meshes.empty()
                      ? catalogue_sources(options.categories, options.objects)
                      : mesh_sources(options.meshes, options.categories, [&](const std::string& text) { say(text); })),
+        objects_(sources_.size()),
         entries_(sources_.size() * static_cast<std::size_t>(options.poses)),
         place_in_category_(sources_.size(), 0) {
     check(pose_count() < 0x10000, "there are ", pose_count(), " objects and poses, more than 65535; take fewer");
@@ -91,15 +93,18 @@ class RenderJob {
 
   RenderSummary run() {
     FreshFolder folder(options_.output);
-    check_meshes();
     render_poses(folder.path());
     const Index left_out =
         std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.problem.empty(); });
-    check(left_out < pose_count(), "no pose was collected; the first, ", place_of(0).string(), ": ",
-          entries_.front().problem);
+    if (left_out == pose_count()) fail_empty();
+    std::vector<std::string> objects_left_out;
+    for (std::size_t i = 0; i < sources_.size(); ++i)
+      if (!objects_[i].problem().empty()) objects_left_out.push_back(sources_[i].category + "/" + sources_[i].object);
+    const Index poses = pose_count() - left_out, of_objects = static_cast<Index>(objects_left_out.size());
     const Index pictures = write_summaries(folder.path());
     folder.keep();
-    return {pictures, pose_count() - left_out, left_out};
+    return {pictures, poses, left_out - options_.poses * of_objects, static_cast<Index>(sources_.size()),
+            std::move(objects_left_out)};
   }
 
  private:
@@ -114,12 +119,29 @@ class RenderJob {
     return fs::path(source.category) / source.object / pose_name(number);
   }
 
-  /// Reads every mesh once, so that an unusable one is found before the work.
-  void check_meshes() const {
-    if (options_.meshes.empty()) return;
-    Parallel::shared().for_chunks(static_cast<Index>(sources_.size()), 1, [&](Index i, Index, int) {
-      mesh_of(sources_[static_cast<std::size_t>(i)], options_.metres_per_unit, options_.seed);
-    });
+  /// Throws Error that says why nothing was collected.
+  [[noreturn]] void fail_empty() const {
+    const std::string& problem = entries_.front().problem;
+    if (objects_.front().problem().empty())
+      fail("no pose was collected; the first, ", place_of(0).string(), ": ", problem);
+    const bool are_more = sources_.size() > 1;
+    fail(objects_.front().problem(),
+         are_more ? joined("; none of the ", sources_.size(), " objects was collected") : "");
+  }
+
+  /// The object of a source. Throws Error that begins with its file's name.
+  RestingMesh object_of(const ObjectSource& source, std::vector<std::string>& lines) const {
+    try {
+      RestingMesh object{mesh_of(source, options_.metres_per_unit, options_.seed,
+                                 [&](const std::string& text) { lines.push_back(text); }),
+                         {}};
+      constexpr std::size_t kExactPoints = 4096;  // scans have many more, and their hulls take minutes
+      object.resting = source.file.empty() ? resting_poses(object.mesh) : resting_poses(object.mesh, kExactPoints);
+      return object;
+    } catch (const Error& error) {
+      const std::string text = error.what(), file = source.file.string();
+      fail(text.starts_with(file) ? text : file + ": " + text);
+    }
   }
 
   void render_poses(const fs::path& folder) {
@@ -129,9 +151,7 @@ class RenderJob {
     for (Index first = 0; first < pose_count(); first += block) {
       const Index count = std::min(block, pose_count() - first);
       Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) { render_pose(first + i, folder); });
-      for (Index number = first; number < first + count; ++number)
-        if (const Entry& entry = entries_[static_cast<std::size_t>(number)]; !entry.problem.empty())
-          say(joined("left out: ", place_of(number).string(), ": ", entry.problem));
+      for (Index number = first; number < first + count; ++number) report_pose(number);
       progress.update(first + count);
     }
   }
@@ -142,20 +162,34 @@ class RenderJob {
     const ObjectSource& source = sources_[source_of(number)];
     const fs::path place = place_of(number);
     Entry& entry = entries_[static_cast<std::size_t>(number)];
-    try {
-      const Mesh mesh = mesh_of(source, options_.metres_per_unit, options_.seed);
-      const PoseCollection collection =
-          collect_pose(mesh, pose, options_.size, options_.seed, static_cast<std::uint32_t>(number));
-      entry.problem = collection.problem;
-      if (!collection.pose) return;
-      entry.manifest =
-          write_pose(*collection.pose, collection.attempts, options_.size, folder / place, folder / "_extra" / place);
-      if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetPictures)
-        entry.picture = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
-    } catch (const Error& error) {
-      if (source.file.empty()) fail(place.string(), ": ", error.what());
-      const std::string text = error.what();
-      fail(text.starts_with(source.file.string()) ? text : source.file.string() + ": " + text);
+    ObjectInWork& in_work = objects_[source_of(number)];
+    auto object = in_work.take([&](std::vector<std::string>& lines) { return object_of(source, lines); });
+    if (object == nullptr) return;
+    const PoseCollection collection =
+        collect_pose(*object, pose, options_.size, options_.seed, static_cast<std::uint32_t>(number));
+    object.reset();
+    in_work.count_pose(options_.poses);
+    entry.problem = collection.problem;
+    if (!collection.pose) return;
+    entry.manifest =
+        write_pose(*collection.pose, collection.attempts, options_.size, folder / place, folder / "_extra" / place);
+    if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetPictures)
+      entry.picture = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
+  }
+
+  /// Says what its object lacks, and why it is left out.
+  void report_pose(Index number) {
+    ObjectInWork& object = objects_[source_of(number)];
+    Entry& entry = entries_[static_cast<std::size_t>(number)];
+    for (const std::string& line : object.take_lines()) say(line);
+    if (!object.problem().empty()) {
+      const ObjectSource& source = sources_[source_of(number)];
+      // The manifest knows no paths of this machine.
+      entry.problem = source.file.lexically_relative(source.collection).string() +
+                      object.problem().substr(source.file.string().size());
+      if (number % options_.poses == 0 && sources_.size() > 1) say("left out: " + object.problem());
+    } else if (!entry.problem.empty()) {
+      say(joined("left out: ", place_of(number).string(), ": ", entry.problem));
     }
   }
 
@@ -178,7 +212,8 @@ class RenderJob {
       if (!entry.picture.rgb.empty()) sheet.back().groups[0].cells.push_back({std::move(entry.picture)});
     }
     write_png(folder / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheet));
-    write_atomically(folder / "manifest.json", manifest.dump(1) + "\n");
+    // Messages may quote bytes of a mesh file that are not UTF-8.
+    write_atomically(folder / "manifest.json", manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
     write_atomically(folder / "_extra" / "overview_camera.json",
                      camera_json({overview_camera(), overview_camera_to_world()}));
     write_atomically(folder / "_extra" / "view_camera.json", camera_json({view_camera(options_.size), {}}));
@@ -188,6 +223,7 @@ class RenderJob {
   const RenderOptions& options_;
   const Messages& messages_;
   std::vector<ObjectSource> sources_;
+  std::vector<ObjectInWork> objects_;  // of each source
   std::vector<Entry> entries_;
   std::vector<Index> place_in_category_;  // of each source, from 0
 };

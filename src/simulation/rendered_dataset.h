@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,17 +24,20 @@ struct RenderOptions {
   Index poses = 3;                      // of each object
   Index size = 224;                     // height and width of the views in pixels
   std::uint64_t seed = 1;
-  double metres_per_unit = 1;  // of the meshes
+  std::optional<double> metres_per_unit{};  // of the meshes; none: by the size of each
 };
 
 struct RenderSummary {
-  Index pictures = 0, poses = 0;  // rendered
-  Index left_out = 0;             // poses that could not be collected
+  Index pictures = 0, poses = 0;                // rendered
+  Index left_out = 0;                           // poses that could not be collected, of objects that could be used
+  Index objects = 0;                            // that were asked for
+  std::vector<std::string> objects_left_out{};  // "CATEGORY/OBJECT"
 };
 
 /// Renders the dataset with the shared thread pool. The result depends on the options alone, not on the number of
-/// threads. Reports progress and poses that are left out. Throws Error for options that do not fit together, a mesh
-/// that cannot be used, or if no pose was collected; then there is no output folder.
+/// threads. Reports progress, what is missing, and objects and poses that are left out: a mesh that cannot be used
+/// costs its own object only. Throws Error for options that do not fit together, or if no pose was collected; then
+/// there is no output folder.
 RenderSummary render_dataset(const RenderOptions&, const Messages&);
 
 }  // namespace svnet

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "simulation/least_rotation.h"
 
 namespace svnet {
 namespace {
@@ -76,6 +77,41 @@ double solid_angle(const std::vector<Vector2d>& polygon, double height) {
   return sum;
 }
 
+/// The points that lie outermost in one of `count` directions, evenly spread (a Fibonacci spiral), in their order.
+std::vector<Vector3d> outermost(const std::vector<Vector3d>& points, int count) {
+  constexpr std::size_t kBlock = 1024;
+  using Floats = Eigen::ArrayXf;
+  const auto size = static_cast<Eigen::Index>(points.size());
+  Floats x(size), y(size), z(size);
+  for (Eigen::Index i = 0; i < size; ++i) {
+    const Vector3d& point = points[static_cast<std::size_t>(i)];
+    x[i] = static_cast<float>(point.x()), y[i] = static_cast<float>(point.y()), z[i] = static_cast<float>(point.z());
+  }
+  std::vector<bool> is_outermost(points.size(), false);
+  const double turn = std::numbers::pi * (3 - std::sqrt(5.0));
+  for (int k = 0; k < count; ++k) {
+    const double height = 1 - (2 * k + 1.0) / count, radius = std::sqrt(1 - height * height);
+    const auto dx = static_cast<float>(radius * std::cos(turn * k)),
+               dy = static_cast<float>(radius * std::sin(turn * k)), dz = static_cast<float>(height);
+    float best = std::numeric_limits<float>::lowest();
+    Eigen::Index best_block = 0, best_length = 0;
+    for (Eigen::Index i = 0; i < size; i += kBlock) {
+      const Eigen::Index length = std::min<Eigen::Index>(kBlock, size - i);
+      const float most = (dx * x.segment(i, length) + dy * y.segment(i, length) + dz * z.segment(i, length)).maxCoeff();
+      if (most > best) best = most, best_block = i, best_length = length;
+    }
+    Eigen::Index place = 0;
+    (dx * x.segment(best_block, best_length) + dy * y.segment(best_block, best_length) +
+     dz * z.segment(best_block, best_length))
+        .maxCoeff(&place);
+    is_outermost[static_cast<std::size_t>(best_block + place)] = true;
+  }
+  std::vector<Vector3d> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (is_outermost[i]) kept.push_back(points[i]);
+  return kept;
+}
+
 }  // namespace
 
 std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> given) {
@@ -139,10 +175,12 @@ std::vector<std::array<std::uint32_t, 3>> convex_hull(std::span<const Vector3d> 
   return triangles;
 }
 
-std::vector<RestingPose> resting_poses(const Mesh& mesh) {
+std::vector<RestingPose> resting_poses(const Mesh& mesh, std::size_t exact_points) {
   std::vector<Vector3d> points;
   const Vector3d centre = centre_of_mass(mesh);
   for (const Vec3& point : mesh.points) points.emplace_back(point.cast<double>() - centre);
+  constexpr int kDirections = 4096;
+  if (points.size() > exact_points) points = outermost(points, kDirections);
   const double size = extent(points);
   const auto hull = convex_hull(points);
   std::vector<Vector3d> corners;  // of the hull, relative to the centre of mass
@@ -166,7 +204,7 @@ std::vector<RestingPose> resting_poses(const Mesh& mesh) {
     const Vector3d down = candidate.normal;
     if (std::any_of(done.begin(), done.end(), [&](const Vector3d& other) { return other.dot(down) > 0.9986; }))
       continue;
-    const Eigen::Quaterniond rotation = Eigen::Quaterniond::FromTwoVectors(down, -Vector3d::UnitZ());
+    const Eigen::Quaterniond rotation = least_rotation<double>(down, -Vector3d::UnitZ());
     double height = 0;
     for (const Vector3d& corner : corners) height = std::max(height, corner.dot(down));
     std::vector<Vector2d> support;

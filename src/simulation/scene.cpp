@@ -17,7 +17,6 @@ namespace svnet {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// Embree's device: one for the process, which builds on the calling thread alone, so that a tree does not depend on
 /// how threads were scheduled.
@@ -167,7 +166,9 @@ struct Scene::Tracer {
                  setting.sky * (0.7f * panel);
     for (const Lamp& lamp : setting.lamps) {
       const float aligned = direction.dot(lamp.place_m.normalized());
-      if (aligned > 0) light += lamp.irradiance * (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * kPi) * 0.35f);
+      if (aligned > 0)
+        light +=
+            lamp.irradiance * (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * std::numbers::pi_v<float>)*0.35f);
     }
     return light;
   }
@@ -175,6 +176,7 @@ struct Scene::Tracer {
   struct Surface {
     Vec3 point, normal, geometric, colour;
     const Material* material;
+    bool metal;
   };
 
   Surface surface(const Hit& hit, const Vec3& origin, const Vec3& direction) const {
@@ -184,6 +186,7 @@ struct Scene::Tracer {
       s.point.z() = 0;
       s.normal = s.geometric = Vec3::UnitZ();
       s.material = &setting.table;
+      s.metal = setting.table.metal;
       s.colour = surface_colour(setting.table, s.point, Vec2::Zero(), {});
       return s;
     }
@@ -197,12 +200,14 @@ struct Scene::Tracer {
     if (s.geometric.dot(direction) > 0) s.geometric = -s.geometric;
     if (s.normal.dot(s.geometric) < 0) s.normal = -s.normal;
     s.material = &mesh->materials[static_cast<std::size_t>(triangle.material)];
-    Vec2 uv = Vec2::Zero();
-    if (!mesh->uv.empty()) {
-      const auto& corner = mesh->uv[hit.triangle];
-      uv = w * corner[0] + hit.u * corner[1] + hit.v * corner[2];
-    }
+    const auto between = [&](const auto& corner) {
+      return (w * corner[0] + hit.u * corner[1] + hit.v * corner[2]).eval();
+    };
+    const Vec2 uv = mesh->uv.empty() ? Vec2(0, 0) : between(mesh->uv[hit.triangle]);
     s.colour = surface_colour(*s.material, to_local * s.point, uv, mesh->pictures);
+    if (!mesh->tints.empty()) s.colour = s.colour.cwiseProduct(between(mesh->tints[hit.triangle]));
+    s.metal = mesh->metal_uv.empty() ? s.material->metal
+                                     : is_metal(*s.material, between(mesh->metal_uv[hit.triangle]), mesh->pictures);
     return s;
   }
 
@@ -217,7 +222,7 @@ struct Scene::Tracer {
     const std::size_t lamps = setting.lamps.size();
     const Lamp& lamp = setting.lamps[sample % lamps];
     const auto [lx, ly] = tangents(lamp.place_m.normalized());
-    const float lamp_radius = lamp.radius_m * std::sqrt(r[0]), lamp_angle = 2 * kPi * r[1];
+    const float lamp_radius = lamp.radius_m * std::sqrt(r[0]), lamp_angle = 2 * std::numbers::pi_v<float> * r[1];
     const Vec3 to_lamp = lamp.place_m + lamp_radius * (std::cos(lamp_angle) * lx + std::sin(lamp_angle) * ly) - s.point;
     const float distance = to_lamp.norm();
     const Vec3 towards = to_lamp / distance;
@@ -230,7 +235,7 @@ struct Scene::Tracer {
     }
     // The room, from a direction drawn with the cosine.
     const auto [tx, ty] = tangents(s.normal);
-    const float around = 2 * kPi * r[3], out = std::sqrt(r[2]);
+    const float around = 2 * std::numbers::pi_v<float> * r[3], out = std::sqrt(r[2]);
     const Vec3 room = out * std::cos(around) * tx + out * std::sin(around) * ty + std::sqrt(1 - r[2]) * s.normal;
     const float open = s.geometric.dot(room) > 0 ? passage(start, room, 0, 0.4f) : 0.0f;
     const Vec3 from_room =
@@ -242,7 +247,7 @@ struct Scene::Tracer {
     shadowed |= lit < 1 || open < 1;
     const Vec3 mirrored = direction + 2 * cosine * s.normal;
     const float seen = 0.35f + 0.65f * open;
-    if (material.metal) {
+    if (s.metal) {
       const Vec3 tint = s.colour + (Vec3::Ones() - s.colour) * edge;
       return tint.cwiseProduct(0.75f * surroundings(mirrored, material.sharpness) * seen + 0.35f * arriving);
     }

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "simulation/least_rotation.h"
+
 namespace svnet {
 namespace {
-
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// The outline moved inwards by `distance` along its normals.
 Outline inset(const Outline& outline, float distance) {
@@ -48,7 +48,8 @@ Part& Part::scale(float x, float y, float z) {
 }
 
 Part& Part::turn(const Vec3& axis, float degrees) {
-  const Eigen::Matrix3f rotation = Eigen::AngleAxisf(degrees * kPi / 180, axis).toRotationMatrix();
+  const Eigen::Matrix3f rotation =
+      Eigen::AngleAxisf(degrees * std::numbers::pi_v<float> / 180, axis).toRotationMatrix();
   return bend([&](const Vec3& p) { return Vec3(rotation * p); });
 }
 
@@ -113,11 +114,10 @@ Part Sculptor::tube(const Path& path, const std::vector<float>& radii, bool loop
     along[i] = (path[after] - path[before]).normalized();
   }
   side[0] = (std::abs(along[0].z()) < 0.9f ? Vec3::UnitZ() : Vec3::UnitX()).cross(along[0]).normalized();
-  for (std::size_t i = 1; i < n; ++i)
-    side[i] = (Eigen::Quaternionf::FromTwoVectors(along[i - 1], along[i]) * side[i - 1]).normalized();
+  for (std::size_t i = 1; i < n; ++i) side[i] = (least_rotation(along[i - 1], along[i]) * side[i - 1]).normalized();
   float twist = 0;
   if (loop) {
-    const Vec3 end = Eigen::Quaternionf::FromTwoVectors(along[n - 1], along[0]) * side[n - 1];
+    const Vec3 end = least_rotation(along[n - 1], along[0]) * side[n - 1];
     twist = std::atan2(end.cross(side[0]).dot(along[0]), end.dot(side[0]));
   }
   std::vector<Path> rings;
@@ -189,7 +189,7 @@ Part Sculptor::strip(const std::vector<Section>& sections, int subdivisions, flo
     const float half_width = std::max(a[i].y(), 0.01f), thickness = std::max(a[i].z(), 0.01f);
     Path ring;
     for (int k = 0; k < kAcross; ++k) {
-      const float angle = 2 * kPi * static_cast<float>(k) / kAcross;
+      const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / kAcross;
       const float c = std::cos(angle), s = std::sin(angle);
       // A superellipse: 2 is an ellipse, more is squarer.
       const float v = std::copysign(std::pow(std::abs(c), 2 / roundness), c),
@@ -208,7 +208,8 @@ Part Sculptor::box(float x, float y, float z, float bevel) {
 Part Sculptor::ball(float x, float y, float z) {
   Outline profile;
   for (int i = 0; i <= 20; ++i)
-    profile.emplace_back(std::sin(kPi * static_cast<float>(i) / 20), -std::cos(kPi * static_cast<float>(i) / 20));
+    profile.emplace_back(std::sin(std::numbers::pi_v<float> * static_cast<float>(i) / 20),
+                         -std::cos(std::numbers::pi_v<float> * static_cast<float>(i) / 20));
   return lathe(profile, 32).scale(x, y, z);
 }
 

@@ -33,13 +33,30 @@ float noise(const Vec3& p) {
   return mix(mix(row(0, 0), row(1, 0), f[1]), mix(row(0, 1), row(1, 1), f[1]), f[2]);
 }
 
-Vec3 picture_colour(const Image& image, const Vec2& uv) {
-  const auto wrapped = [](float t, Index size) {
-    const float part = t - std::floor(t);
-    return std::clamp(static_cast<Index>(part * static_cast<float>(size)), Index{0}, size - 1);
-  };
-  const std::uint8_t* rgb = &image.rgb[static_cast<std::size_t>(
-      3 * (wrapped(1 - uv.y(), image.height) * image.width + wrapped(uv.x(), image.width)))];
+Index texel(float t, Index size, Wrap wrap) {
+  float part = 0;
+  switch (wrap) {
+    case Wrap::repeat:
+      part = t - std::floor(t);
+      break;
+    case Wrap::mirror:
+      part = 1 - std::abs(t - 2 * std::floor(t / 2) - 1);
+      break;
+    case Wrap::clamp:
+      part = std::clamp(t, 0.0f, 1.0f);
+      break;
+  }
+  return std::clamp(static_cast<Index>(part * static_cast<float>(size)), Index{0}, size - 1);
+}
+
+/// The picture's nearest pixel, three levels.
+const std::uint8_t* pixel_at(const Image& image, const Vec2& uv, const std::array<Wrap, 2>& wrap) {
+  const Index y = texel(1 - uv.y(), image.height, wrap[1]), x = texel(uv.x(), image.width, wrap[0]);
+  return &image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))];
+}
+
+Vec3 picture_colour(const Image& image, const Vec2& uv, const std::array<Wrap, 2>& wrap) {
+  const std::uint8_t* rgb = pixel_at(image, uv, wrap);
   return {linear_from_srgb(rgb[0]), linear_from_srgb(rgb[1]), linear_from_srgb(rgb[2])};
 }
 
@@ -80,7 +97,8 @@ Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv,
     case Texture::plain:
       return material.colour;
     case Texture::picture:
-      return picture_colour(pictures[static_cast<std::size_t>(material.picture)], uv);
+      return material.colour.cwiseProduct(
+          picture_colour(pictures[static_cast<std::size_t>(material.picture)], uv, material.wrap));
     case Texture::wood: {  // rings around an axis near x
       const float rings = p.y() + 0.7f * p.z() + 1.5f * noise(Vec3(0.12f * p.x(), 0.5f * p.y(), 0.5f * p.z()));
       share = 0.6f * (rings - std::floor(rings)) + 0.4f * noise(Vec3(0.6f * p.x(), 6 * p.y(), 6 * p.z()));
@@ -102,6 +120,12 @@ Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv,
     }
   }
   return material.colour + share * (material.second - material.colour);
+}
+
+bool is_metal(const Material& material, const Vec2& uv, const std::vector<Image>& pictures) {
+  if (material.metal_picture < 0) return material.metal;
+  const Image& picture = pictures[static_cast<std::size_t>(material.metal_picture)];
+  return material.metal_factor * static_cast<float>(pixel_at(picture, uv, material.wrap)[2]) / 255 > 0.5f;
 }
 
 }  // namespace svnet

@@ -22,7 +22,7 @@ Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Inde
   Tensor batch = Tensor::empty({end - begin, how.height, how.width, 3});
   parallel.for_chunks(end - begin, 1, [&](Index i, Index, int) {
     const View& view = dataset.views[static_cast<std::size_t>(begin + i)];
-    prepare(how, read_image(dataset.root / view.path), batch.data<float>() + i * how.size());
+    prepare(how, read_image(dataset.root / view.path, dataset.exif_orientation), batch.data<float>() + i * how.size());
   });
   return batch;
 }

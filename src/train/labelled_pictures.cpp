@@ -16,8 +16,8 @@ LabelledPictures::LabelledPictures(const ViewDataset& dataset, std::vector<Pictu
     Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
       const auto i = static_cast<std::size_t>(first + begin);
       const View& view = dataset.views[static_cast<std::size_t>(pictures[i].view)];
-      images_[i] = resized(read_image(dataset.root / view.path), preprocessing.height, preprocessing.width,
-                           preprocessing.interpolation);
+      images_[i] = resized(read_image(dataset.root / view.path, dataset.exif_orientation), preprocessing.height,
+                           preprocessing.width, preprocessing.interpolation);
     });
     progress.update(first + count);
   }

@@ -19,16 +19,16 @@ namespace svnet {
 namespace {
 
 /// Images to train on, and to validate on.
-struct Split {
+struct PictureSplit {
   std::vector<std::string> categories;
   std::vector<LabelledPictures::Picture> training, validation;
 };
 
-Split split(const ViewDataset& dataset, const PretrainingOptions& options) {
+PictureSplit split(const ViewDataset& dataset, const PretrainingOptions& options) {
   const std::vector<bool> excluded = named_categories(dataset, options.exclude, "--exclude");
   std::vector<Index> objects_left(dataset.categories.size(), 0);  // to train on
   for (const auto& object : dataset.objects) ++objects_left[static_cast<std::size_t>(object.category)];
-  Split split;
+  PictureSplit split;
   std::vector<Index> class_of(dataset.categories.size(), -1);
   for (std::size_t c = 0; c < dataset.categories.size(); ++c) {
     if (excluded[c]) continue;
@@ -118,7 +118,7 @@ ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimi
 
 Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages) {
   const BackboneKind& kind = backbone_kind(options.backbone);
-  const Split parts = split(dataset, options);
+  const PictureSplit parts = split(dataset, options);
   const LabelledPictures training(dataset, parts.training, kind.preprocessing, messages, "reading pictures");
   const LabelledPictures validation(dataset, parts.validation, kind.preprocessing, messages,
                                     "reading validation pictures");

@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "io/views/dataset_notes.h"
 #include "models/registry.h"
 #include "train/config/config_file.h"
 #include "train/config/pipeline_name.h"
@@ -70,6 +71,8 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
   std::error_code error;
   fs::create_directories(run.folder, error);
   check(!error, run.folder.string(), ": cannot make this folder: ", error.message());
+  if (run.communicator.is_root())
+    for (const std::string& note : dataset_notes(run.dataset, Parallel::shared())) run.say(note);
   run.dataset_fingerprint = fingerprint(run.dataset, Parallel::shared());
   run.say(joined("dataset ", run.config.dataset.root.string(), ": ", run.dataset.categories.size(), " categories, ",
                  run.dataset.objects.size(), " objects, ", run.dataset.poses.size(), " poses, ",

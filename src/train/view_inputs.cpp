@@ -57,7 +57,7 @@ Tensor PictureInputs::compute(std::span<const Index> inputs) const {
       const Index input = inputs[static_cast<std::size_t>(i)], view = input / options_.orientations;
       if (view != prepared) {
         const auto& path = dataset_.views[static_cast<std::size_t>(view)].path;
-        prepare(preprocessing_, read_image(dataset_.root / path), as_taken.data());
+        prepare(preprocessing_, read_image(dataset_.root / path, dataset_.exif_orientation), as_taken.data());
         prepared = view;
       }
       float* to = pixels.data<float>() + i * preprocessing_.size();

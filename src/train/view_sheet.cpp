@@ -25,9 +25,9 @@ Image view_sheet(const ViewDataset& dataset, std::span<const Index> poses, std::
     const Selector& selector = selectors[column];
     const std::int32_t chosen = selector.view[static_cast<std::size_t>(poses[group])];
     const View& view = dataset.views[static_cast<std::size_t>(chosen)];
-    groups[group].cells[column] = {
-        resized(read_image(dataset.root / view.path), kLayout.cell, kLayout.cell, Interpolation::bilinear),
-        joined(selector.name, " ", view.phi_deg, ", ", view.theta_deg)};
+    groups[group].cells[column] = {resized(read_image(dataset.root / view.path, dataset.exif_orientation), kLayout.cell,
+                                           kLayout.cell, Interpolation::bilinear),
+                                   joined(selector.name, " ", view.phi_deg, ", ", view.theta_deg)};
   });
   std::vector<SheetLine> lines;
   Index category = -1;

@@ -42,7 +42,7 @@ const std::vector<Room> kRooms{
     {"io/tensors", {"base", "nn/*", "io/files"}},
     {"io/keras", {"base", "nn/*", "models", "io/hdf5"}},
     {"io/models", {"base", "image", "view", "nn/*", "models", "data/model.h", "io/files", "io/tensors", "io/keras"}},
-    {"io/views", {"base", "view", "data", "io/files", "io/hdf5"}},
+    {"io/views", {"base", "view", "data", "io/files", "io/hdf5", "io/images"}},
 
     {"predict", {"base", "image", "view", "nn/*", "models", "data", "data/model.h", "io/models", "io/tensors"}},
     {"c_api", {"base", "image", "predict"}},

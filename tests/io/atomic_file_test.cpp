@@ -3,6 +3,8 @@
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
+#include <iterator>
+#include <thread>
 
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -166,4 +168,36 @@ TEST_CASE("names as long as file systems allow can be written") {
   const std::string name(255, 'n');
   write_atomically(folder.path() / name, "x");
   CHECK(file_contents(folder.path() / name) == "x");
+}
+
+TEST_CASE("a file that is replaced keeps its mode") {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("a", "old");
+  for (const fs::perms mode : {fs::perms(0600), fs::perms(0664), fs::perms(0755), fs::perms(0400)}) {
+    fs::permissions(file, mode);
+    write_atomically(file, "new");
+    CHECK(fs::status(file).permissions() == mode);
+    write_atomically(file, [](const fs::path& temporary) { std::ofstream(temporary) << "more"; });
+    CHECK(fs::status(file).permissions() == mode);
+  }
+}
+
+TEST_CASE("contents in memory may go to a pipe or a device, which stay") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  const std::string contents(300000, 'x');
+  CHECK_NOTHROW(check_can_be_written(pipe, {}, Streams::allowed));
+  CHECK_THROWS(check_can_be_written(pipe));
+  std::string received;
+  std::thread reader([&] {
+    std::ifstream file(pipe, std::ios::binary);
+    received.assign(std::istreambuf_iterator<char>(file), {});
+  });
+  write_atomically(pipe, contents);
+  reader.join();
+  CHECK(received == contents);
+  CHECK(fs::is_fifo(pipe));
+  write_atomically("/dev/null", contents);
+  CHECK(fs::is_character_file("/dev/null"));
 }

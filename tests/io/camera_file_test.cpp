@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "base/error.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -36,8 +37,9 @@ TEST_CASE("camera files that cannot be used are named in one line") {
   CHECK(message(R"({"width": 0, )" + rest + "}") ==
         name + "the picture has 0x480 pixels, expected a positive width and height");
   CHECK(message(R"({"width": 300, )" + rest + "}") == name + "cx is 320, which is outside the picture of 300 pixels");
-  CHECK(message(R"({"width": 640, "f": 1, )" + rest + "}") == name + "the key 'f' is not known");
-  CHECK(message("[]") == name + "is no JSON object");
+  CHECK(message(R"({"width": 640, "f": 1, )" + rest + "}") ==
+        name + "the key 'f' is not known; known: width, height, fx, fy, cx, cy, pose");
+  CHECK(message("[]") == name + "is no mapping of keys to values, expected a camera");
   CHECK_THAT(message("{"), Catch::StartsWith(name + "is not JSON: "));
   CHECK(message(R"({"width": 640, "pose": {"x_m": 0}, )" + rest + "}") == name + "pose: the key 'y_m' is missing");
   CHECK(message(R"({"width": 640, "pose": {"x_m": 0, "y_m": 0, "z_m": 1, "qx": 0, "qy": 0, "qz": 0, "qw": 2}, )" +
@@ -47,5 +49,72 @@ TEST_CASE("camera files that cannot be used are named in one line") {
   CHECK(message(R"({"width": 640, "height": 480, "fx": 1e-9, "fy": 600, "cx": 320, "cy": 240})") ==
         name + "fx is 1e-09 for 640 pixels: no camera sees so much; is it in pixels?");
   CHECK_THROWS_WITH(read_camera(folder.path() / "none"),
-                    (folder.path() / "none").string() + ": cannot be read; expected a JSON file of a camera");
+                    (folder.path() / "none").string() + ": cannot be read; expected a JSON or YAML file of a camera");
+}
+
+namespace {
+
+/// The intrinsics in a file of that contents, "fx fy cx cy of width x height", or the message without the file's name.
+std::string intrinsics_in(const std::string& contents) {
+  const TemporaryFolder folder;
+  const auto path = folder.write("c", contents);
+  try {
+    const Intrinsics k = read_camera(path).intrinsics;
+    return joined(k.fx, ' ', k.fy, ' ', k.cx, ' ', k.cy, " of ", k.width, 'x', k.height);
+  } catch (const std::exception& error) {
+    const std::string message = error.what(), name = path.string() + ": ";
+    return message.starts_with(name) ? message.substr(name.size()) : message;
+  }
+}
+
+std::string ros_json(const std::string& d, const std::string& rest = "") {
+  return R"({"width": 640, "height": 480, "distortion_model": "plumb_bob", "D": )" + d +
+         R"(, "K": [600, 0, 319.5, 0, 601, 239.5, 0, 0, 1], "R": [1, 0, 0, 0, 1, 0, 0, 0, 1])" + rest + "}";
+}
+
+}  // namespace
+
+TEST_CASE("the camera_info of ROS and the intrinsics of RealSense are read") {
+  const std::string expected = "600 601 319.5 239.5 of 640x480";
+  CHECK(intrinsics_in(ros_json("[0, 0, 0, 0, 0]")) == expected);
+  CHECK(intrinsics_in(ros_json("[]")) == expected);
+  CHECK(intrinsics_in(ros_json("[0, 0, 0, 0, 0]", R"(, "P": [600, 0, 319.5, 0, 0, 601, 239.5, 0, 0, 0, 1, 0])")) ==
+        expected);
+  // rostopic echo; ros2 topic echo writes small letters
+  CHECK(intrinsics_in(
+            "header:\n  seq: 7\n  stamp: {secs: 1, nsecs: 2}\n  frame_id: \"optical\"\nheight: 480\nwidth: 640\n"
+            "distortion_model: \"plumb_bob\"\nD: [0.0, 0.0, 0.0, 0.0, 0.0]\n"
+            "K: [600.0, 0.0, 319.5, 0.0, 601.0, 239.5, 0.0, 0.0, 1.0]\nbinning_x: 0\nbinning_y: 0\n"
+            "roi:\n  x_offset: 0\n  y_offset: 0\n  height: 0\n  width: 0\n  do_rectify: False\n---\n") == expected);
+  CHECK(
+      intrinsics_in("height: 480\nwidth: 640\nd:\n- 0.0\n- 0.0\nk:\n- 600.0\n- 0.0\n- 319.5\n- 0.0\n- 601.0\n- 239.5\n"
+                    "- 0.0\n- 0.0\n- 1.0\n") == expected);
+  // camera_calibration_parsers
+  CHECK(intrinsics_in("image_width: 640\nimage_height: 480\ncamera_name: top\ncamera_matrix:\n  rows: 3\n  cols: 3\n"
+                      "  data: [600, 0, 319.5, 0, 601, 239.5, 0, 0, 1]\ndistortion_model: plumb_bob\n"
+                      "distortion_coefficients:\n  rows: 1\n  cols: 5\n  data: [0, 0, 0, 0, 0]\n") == expected);
+  // rs2_intrinsics
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 319.5, "ppy": 239.5,
+                          "model": "distortion.inverse_brown_conrady", "coeffs": [0.0, 0.0, 0.0, 0.0, 0.0]})") ==
+        expected);
+  CHECK(intrinsics_in("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 319.5\ncy: 239.5\n") == expected);
+}
+
+TEST_CASE("cameras with distortion are refused, and say that pictures must be rectified") {
+  const std::string rectify =
+      "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no "
+      "distortion";
+  CHECK(intrinsics_in(ros_json("[0.1, 0, 0, 0, 0]")) == "D: the lens has distortion (0.1)" + rectify);
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 319.5, "ppy": 239.5,
+                          "coeffs": [0, 0, 0, 0, -0.05]})") == "coeffs: the lens has distortion (-0.05)" + rectify);
+  CHECK(intrinsics_in(ros_json("[0]", R"(, "P": [500, 0, 319.5, 0, 0, 601, 239.5, 0, 0, 0, 1, 0])")) ==
+        "K and P are different cameras; leave out P if the pictures are as taken, or give its numbers as K if they are "
+        "rectified");
+  CHECK(intrinsics_in(ros_json("[0]", R"(, "binning_x": 2)")) ==
+        "binning_x is 2; give the camera of the pictures as they are");
+  CHECK_THAT(intrinsics_in(ros_json("[0]", R"(, "Q": 2)")),
+             Catch::StartsWith("the key 'Q' is not known; known: width, "));
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": [600, 0, 319.5]})") == "K has 3 numbers, expected 9");
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": 600})") == "K is not a list of numbers");
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "D": [0]})") == "the key 'K' is missing");
 }

@@ -1,9 +1,14 @@
 #include "io/images/image_file.h"
 
 #include <catch2/catch.hpp>
+#include <fstream>
 #include <sstream>
+#include <thread>
+
+#include <sys/stat.h>
 
 #include "base/sha256.h"
+#include "image/oriented.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -30,7 +35,7 @@ TEST_CASE("every kind of image has Pillow's pixels") {
     CHECK(image.width == width);
     CHECK(Sha256().update(image.rgb.data(), image.rgb.size()).hex() == sha256);
   }
-  CHECK(cases == 17);
+  CHECK(cases == 22);
 }
 
 TEST_CASE("the contents, not the name, decide the format of an image") {
@@ -69,4 +74,61 @@ TEST_CASE("write_png says why it cannot") {
   CHECK_FALSE(fs::exists(path));
   CHECK_THROWS_WITH(write_png(folder.path() / "none" / "out.png", gradient(2, 2)),
                     Catch::EndsWith("none does not exist; create it first"));
+}
+
+TEST_CASE("an EXIF orientation is read from JPEG, PNG and WebP, and ignored unless it is to be obeyed") {
+  for (const auto& [name, orientation] : {std::pair("turned.jpg", 6),
+                                          {"turned.png", 8},
+                                          {"turned.webp", 8},
+                                          {"rgb.jpg", 1},
+                                          {"rgb.png", 1},
+                                          {"lossy.webp", 1}}) {
+    CAPTURE(name);
+    CHECK(read_exif_orientation(kPictures / name) == orientation);
+    const Image stored = read_image(kPictures / name), turned = read_image(kPictures / name, ExifOrientation::obey);
+    CHECK(turned.rgb == oriented(stored, orientation).rgb);
+    CHECK(turned.height == (orientation == 1 ? stored.height : stored.width));
+  }
+}
+
+TEST_CASE("damaged EXIF data count as none") {
+  const TemporaryFolder folder;
+  const std::string jpeg = file_contents(kPictures / "turned.jpg");
+  const auto exif = jpeg.find("Exif");
+  REQUIRE(exif != std::string::npos);
+  for (std::size_t i = 0; i < 40; ++i)
+    for (const char value : {'\0', '\x7f', '\xff'}) {
+      std::string damaged = jpeg;
+      damaged[exif + i] = value;
+      const int orientation = read_exif_orientation(folder.write("d.jpg", damaged));
+      CHECK(orientation >= 1);
+      CHECK(orientation <= 8);
+    }
+}
+
+TEST_CASE("the eight orientations are those of Pillow's ImageOps.exif_transpose") {
+  Image image{2, 3, {}};
+  for (const std::uint8_t level : {0, 1, 2, 10, 11, 12}) image.rgb.insert(image.rgb.end(), 3, level);
+  const std::vector<std::vector<int>> expected{{0, 1, 2, 10, 11, 12}, {2, 1, 0, 12, 11, 10}, {12, 11, 10, 2, 1, 0},
+                                               {10, 11, 12, 0, 1, 2}, {0, 10, 1, 11, 2, 12}, {10, 0, 11, 1, 12, 2},
+                                               {12, 2, 11, 1, 10, 0}, {2, 12, 1, 11, 0, 10}};
+  for (int orientation = 1; orientation <= 8; ++orientation) {
+    CAPTURE(orientation);
+    const Image turned = oriented(image, orientation);
+    CHECK(turned.height == (orientation < 5 ? 2 : 3));
+    CHECK(turned.width == (orientation < 5 ? 3 : 2));
+    std::vector<int> levels;
+    for (std::size_t i = 0; i < turned.rgb.size(); i += 3) levels.push_back(turned.rgb[i]);
+    CHECK(levels == expected[static_cast<std::size_t>(orientation - 1)]);
+  }
+}
+
+TEST_CASE("an image comes through a pipe") {
+  const TemporaryFolder folder;
+  const fs::path pipe = folder.path() / "pipe";
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << file_contents(kPictures / "rgb.jpg"); });
+  const Image image = read_image(pipe);
+  writer.join();
+  CHECK(image.rgb == read_image(kPictures / "rgb.jpg").rgb);
 }

@@ -28,6 +28,43 @@ TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
         std::vector<CameraPose>{{0, 45}, {90, 60}});
 }
 
+TEST_CASE("a pose list is CSV as RFC 4180 has it") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& contents) { return read_pose_list(folder.write("poses.csv", contents)); };
+  const std::vector<CameraPose> expected{{0, 45}, {90, 60}};
+  CHECK(read("\"theta\",\"phi\"\n0,45\n90,60\n") == expected);
+  CHECK(read("\xef\xbb\xbf\"theta\",\"phi\"\r\n\"0\",\"45\"\r\n\"90\" , \"60\"\r\n") == expected);
+  CHECK(read("theta,phi,note\n0,45,\"a, \"\"quoted\"\" word\"\n90,60,\"two\r\nlines\"\n") == expected);
+  CHECK(read("theta,phi\r0,45\r90,60\r") == expected);
+  CHECK(read("theta,phi\n+0,+45\n\"+90\",+6.0e1\n") == expected);
+  const auto message = [&](const std::string& contents) -> std::string {
+    try {
+      read(contents);
+    } catch (const Error& error) {
+      return std::string(error.what()).substr((folder.path() / "poses.csv").string().size());
+    }
+    return "read";
+  };
+  CHECK(message("theta,phi\n0,\"45\n") == ":2: a quote is not closed");
+  CHECK(message("theta,phi\n0,\"45\"6\n") == ":2: text after a closing quote; double the quotes inside a field");
+  CHECK(message("theta,phi,n\n0,45,\"a\nb\"\n0,95,c\n") == ":4: phi 95 is outside [0, 90] degrees");
+  for (const char* number : {"++4", "+-4", "+", "4+"})
+    CHECK_THAT(message(joined("theta,phi\n0,", number, "\n")), Catch::Contains("does not begin with two numbers"));
+}
+
+TEST_CASE("angles that are out of range by rounding alone are taken for the bound, others are printed in full") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& row) {
+    return read_pose_list(folder.write("poses.csv", "theta,phi\n" + row + "\n")).at(0);
+  };
+  CHECK(read("0,90.00000250447816") == CameraPose{0, 90});
+  CHECK(read("0,90.0001") == CameraPose{0, 90});
+  CHECK(read("-360.00009,-0.00009") == CameraPose{-360, 0});
+  CHECK(read("720.00005,45") == CameraPose{720, 45});
+  CHECK_THROWS_WITH(read("0,90.00011"), Catch::EndsWith(":2: phi 90.00011 is outside [0, 90] degrees"));
+  CHECK_THROWS_WITH(read("0,-0.0002"), Catch::EndsWith(":2: phi -0.0002 is outside [0, 90] degrees"));
+}
+
 TEST_CASE("a wrong pose list is refused with file and line") {
   const TemporaryFolder folder;
   const auto message = [&](const std::string& contents) {

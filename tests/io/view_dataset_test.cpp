@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
 
 #include "io/views/dataset_folder.h"
+#include "io/views/dataset_notes.h"
 #include "shared_folder.h"
 #include "temporary_folder.h"
 
@@ -121,4 +123,56 @@ TEST_CASE("ETH-80 is 8 categories of 10 objects of 41 views") {
   CHECK(dataset.poses.size() == 80);
   CHECK(dataset.views.size() == 3280);
   CHECK(dataset.objects[9].name == "10");
+}
+
+TEST_CASE("what systems leave beside pictures is ignored and counted") {
+  const TemporaryFolder folder;
+  const std::vector<std::string> left{
+      ".DS_Store",           "@eaDir/x",          "Thumbs.db",       "desktop.ini",         "lost+found/x",
+      "notes.txt",           "mug/Thumbs.db",     "mug/@eaDir/a/b",  "mug/1/a/desktop.ini", "mug/1/.DS_Store",
+      "mug/1/a/._90_90.png", "mug/1/a/thumbs.DB", "mug/lost+found/x"};
+  for (const auto& path : left) folder.write(path, "");
+  for (const char* path : {"mug/1/a/90_90.png", "manifest.json", "_extra/x.txt", ".git/x"}) folder.write(path, "");
+  const ViewDataset dataset = read_view_dataset(folder.path());
+  CHECK(paths(dataset) == std::vector<std::string>{"mug/1/a/90_90.png"});
+  CHECK(dataset.ignored.size() == left.size());
+  const auto notes = dataset_notes(dataset, Parallel::shared());
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0].starts_with(folder.path().string() + ": 13 files or folders that are no pictures of a category are "
+                                                      "ignored: "));
+  CHECK(std::count(notes[0].begin(), notes[0].end(), '\n') == 0);
+}
+
+TEST_CASE("names of categories are the same composed (NFC) and decomposed (NFD)") {
+  const std::string composed = "caf\xc3\xa9", decomposed = "cafe\xcc\x81";
+  const auto dataset_with = [](const TemporaryFolder& folder, const std::string& name) {
+    folder.write(name + "/1/a/90_90.png", "picture");
+    folder.write("cafz/1/a/90_90.png", "picture");
+    return read_view_dataset(folder.path());
+  };
+  const TemporaryFolder mac, linux_folder, both;
+  const ViewDataset from_mac = dataset_with(mac, decomposed), from_linux = dataset_with(linux_folder, composed);
+  CHECK(from_mac.categories == from_linux.categories);
+  CHECK(std::count(from_mac.categories.begin(), from_mac.categories.end(), composed) == 1);
+  CHECK(fingerprint(from_mac, Parallel::shared()) == fingerprint(from_linux, Parallel::shared()));
+  CHECK(fs::exists(from_mac.root / from_mac.views[0].path));
+  both.write(composed + "/1/a/90_90.png", "");
+  both.write(decomposed + "/1/a/90_90.png", "");
+  CHECK_THROWS_WITH(read_view_dataset(both.path()), Catch::Contains(": the same category as another folder"));
+}
+
+TEST_CASE("an EXIF orientation is reported if it is ignored, and obeying it is another dataset") {
+  const TemporaryFolder folder;
+  for (const char* path : {"mug/1/a/90_90.jpg", "mug/1/a/45_0.jpg"})
+    folder.write(path, file_contents(fs::path(SVNET_SOURCE_DIR) / "tests/fixtures/pictures/turned.jpg"));
+  folder.write("mug/1/a/45_90.jpg", file_contents(fs::path(SVNET_SOURCE_DIR) / "tests/fixtures/pictures/rgb.jpg"));
+  const ViewDataset ignored = read_view_dataset(folder.path());
+  const ViewDataset obeyed = read_view_dataset(folder.path(), ExifOrientation::obey);
+  const auto notes = dataset_notes(ignored, Parallel::shared());
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0] ==
+        "2 of 3 pictures have an EXIF orientation other than 1, which is ignored (mug/1/a/45_0.jpg: 6); "
+        "exif_orientation obey turns them as viewers do");
+  CHECK(dataset_notes(obeyed, Parallel::shared()).empty());
+  CHECK(fingerprint(ignored, Parallel::shared()) != fingerprint(obeyed, Parallel::shared()));
 }

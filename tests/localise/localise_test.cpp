@@ -6,6 +6,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
+#include "base/error.h"
 #include "base/parallel.h"
 #include "localise/enclosing_circle.h"
 #include "simulation/catalogue.h"
@@ -241,4 +242,99 @@ TEST_CASE("localisation of 200 objects, measured", "[.measure]") {
       CHECK(percentile(errors, which, 0.95) < limits_mm[which]);
     }
   }
+}
+
+namespace {
+
+RgbdPicture scaled_depth(RgbdPicture picture, float factor, double unit_m) {
+  for (float& z : picture.depth.metres) z *= factor;
+  picture.depth.unit_m = unit_m;
+  return picture;
+}
+
+std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdPicture& before, const RgbdPicture& after,
+                         const LocaliseOptions& options = {}) {
+  try {
+    localise(overview_camera(), camera_to_world, {before.rgb, before.depth}, {after.rgb, after.depth}, options);
+  } catch (const std::exception& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+}  // namespace
+
+TEST_CASE("exchanged pictures are refused for objects of every height") {
+  for (const char* name : {"mug", "bowl", "comb", "fork", "key", "knife", "pen", "plate", "scissors", "spoon"}) {
+    INFO(name);
+    const PosedObject posed = pose_object(catalogue_object(name, 1, 3), 1, 3, 5);
+    const Overview overview = capture_overview(posed, 3, 5);
+    CHECK(refusal(overview.background, overview.current) == "found");
+    const std::string message = refusal(overview.current, overview.background);
+    CHECK_THAT(message, Catch::Contains("exchanged") || Catch::Contains("nothing is found") ||
+                            Catch::Contains("objects; leave one"));
+  }
+}
+
+TEST_CASE("an object without depth is refused, even if the ground of a mug has some") {
+  const PosedObject posed = pose_object(catalogue_object("mug", 1, 3), 1, 3, 5);
+  const Overview overview = capture_overview(posed, 3, 5);
+  RgbdPicture walls = overview.current, all = overview.current;
+  for (std::size_t i = 0; i < walls.depth.metres.size(); ++i) {
+    const float rise = overview.background.depth.metres[i] - walls.depth.metres[i];
+    if (rise > 0.009f) walls.depth.metres[i] = 0;
+    if (rise > 0.002f) all.depth.metres[i] = 0;
+  }
+  const auto pattern = Catch::Matches(
+      "\\[localise\\] the current depth picture has depth at [0-9]+ of the .*[0-9]+ pixels.*, at least [0-9]+ are "
+      "needed; "
+      "cameras measure none of black, shiny or transparent objects: cover it, or give its place and size");
+  CHECK_THAT(refusal(overview.background, walls), pattern || Catch::Contains("of the object's"));
+  CHECK_THAT(refusal(overview.background, all), pattern || Catch::Contains("of the object's"));
+}
+
+TEST_CASE("a camera that does not look down is refused however its quaternion is rounded") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0, 0, 1, 2);
+  for (const double half : {std::sqrt(0.5), 0.7071, 0.707, 0.70711, 0.7072, -0.7071})
+    for (const double other : {std::sqrt(0.5), 0.7071, 0.70710678}) {
+      Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1) *
+                             Eigen::Quaterniond(std::copysign(other, half), 0, half, 0).normalized());
+      CHECK(
+          refusal_from(pose, before, after) ==
+          "[localise] the camera looks sideways; give the pose of its optical frame (z forward) in a world with z up");
+    }
+  Eigen::Isometry3d tilted = overview_camera_to_world() * Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitX());
+  CHECK_THAT(refusal_from(tilted, before, after),
+             Catch::StartsWith("[localise] the table is tilted by 34 degrees in the world"));
+  Eigen::Isometry3d careless = overview_camera_to_world() * Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitX());
+  CHECK(refusal_from(careless, before, after) == "found");
+}
+
+TEST_CASE("depth in another unit is suspected by name") {
+  const Mesh mesh = block();
+  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0, 0, 1, 2);
+  const Eigen::Isometry3d pose = overview_camera_to_world();
+  const struct {
+    float factor;
+    double unit_m;
+    const char *read, *right;
+  } cases[] = {{4, 0.001, "mm", "0.25mm"}, {5, 0.001, "mm", "0.2mm"}, {10, 0.001, "mm", "0.1mm"},
+               {100, 1, "m", "cm"},        {0.1f, 0.001, "mm", "cm"}, {0.001f, 0.001, "mm", "m"}};
+  for (const auto& c : cases) {
+    const std::string message =
+        refusal_from(pose, scaled_depth(before, c.factor, c.unit_m), scaled_depth(after, c.factor, c.unit_m));
+    CHECK_THAT(message, Catch::StartsWith(joined("[localise] with depth in ", c.read, " the table is at z = ")) &&
+                            Catch::Contains(joined("with depth in ", c.right, " it is at 0")));
+  }
+  CHECK(refusal_from(pose, scaled_depth(before, 1, 0.001), scaled_depth(after, 1, 0.001)) == "found");
+
+  // The table is not at z = 0: its size tells.
+  const Eigen::Isometry3d lifted = Eigen::Translation3d(0, 0, 40) * pose;
+  const RgbdPicture far_before = scaled_depth(before, 100, 1), far_after = scaled_depth(after, 100, 1);
+  const std::string message = refusal_from(lifted, far_before, far_after);
+  CHECK_THAT(message,
+             Catch::StartsWith("[localise] the object is ") &&
+                 Catch::Contains("more than the 1.5 m of anything on a table; is the unit of depth (m) wrong?") &&
+                 Catch::Contains(" m with depth in cm"));
 }

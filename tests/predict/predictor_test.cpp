@@ -158,3 +158,12 @@ TEST_CASE("several threads may use one predictor") {
   for (auto& thread : threads) thread.join();
   for (const auto& mine : answers) CHECK(mine == expected);
 }
+
+TEST_CASE("angles that are out of range by rounding alone score as the bound") {
+  const Predictor predictor(small_model());
+  const auto embedded = predictor.embed(small_picture());
+  const std::vector<CameraPose> exact{{0, 90}, {720, 0}}, rounded{{0, 90.00000250447816}, {720.00009, -0.0001}};
+  CHECK(predictor.scores(embedded, rounded) == predictor.scores(embedded, exact));
+  CHECK_THROWS_WITH(predictor.scores(embedded, std::vector<CameraPose>{{0, 90.0002}}),
+                    Catch::Contains("phi 90.0002 is outside [0, 90] degrees"));
+}

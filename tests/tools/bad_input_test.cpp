@@ -53,7 +53,6 @@ const Row kRows[] = {
      "\\377\\332\\0\\014\\003\\001\\0\\002\\0\\003\\0\\0\\077\\0' >bad.jpg",
      PREDICT "bad.jpg", "bad.jpg: has 30000x30000 pixels, more than the 64 megapixels"},
     {"animated WebP", "", PREDICT "$PICTURES/animated.webp", "animated.webp: is an animated WebP"},
-    {"CMYK JPEG", "", PREDICT "$PICTURES/cmyk.jpg", "cmyk.jpg: is a JPEG picture with 4 colour channels"},
     // models
     {"missing model", "", PREDICT_WITH("none.safetensors"), "none.safetensors: cannot be read"},
     {"model cut short", "head -c -100 model.safetensors >bad.safetensors", PREDICT_WITH("bad.safetensors"),

@@ -33,7 +33,7 @@ std::array<double, 4> numbers_of(const std::string& line) {
 }  // namespace
 
 TEST_CASE("a plan lists every step in aligned columns, and their sums") {
-  const auto lines = lines_of(backbone_plan("tiny_xception", "", 3));
+  const auto lines = lines_of(backbone_plan("tiny_xception", "", 3, {}));
   const Inference network = [] {
     const Backbone backbone = random_backbone("tiny_xception", "", 1);
     return Inference(backbone.graph(), backbone.parameters(), backbone.graph().output());
@@ -66,17 +66,17 @@ TEST_CASE("the plan of a model has its backbone and its head") {
   const TemporaryFolder folder;
   const auto file = folder.path() / "model.safetensors";
   write_model(file, small_model());
-  const auto lines = lines_of(model_plan(file, 1));
+  const auto lines = lines_of(model_plan(file, 1, {}));
   CHECK(lines[0] == "tiny_xception to avg_pool");
   const auto head = std::find(lines.begin(), lines.end(), "SV-net");
   REQUIRE(head != lines.end());
   CHECK(std::find_if(head, lines.end(), [](const auto& line) { return line.starts_with("score "); }) != lines.end());
-  CHECK_THROWS_WITH(model_plan(folder.path() / "none.safetensors", 1), Catch::Contains("none.safetensors: "));
+  CHECK_THROWS_WITH(model_plan(folder.path() / "none.safetensors", 1, {}), Catch::Contains("none.safetensors: "));
 }
 
 TEST_CASE("a plan ends at the given layer, also if it is part of the top") {
-  CHECK_THAT(lines_of(backbone_plan("mobilenet_v2", "block_1_expand_relu", 1))[0],
+  CHECK_THAT(lines_of(backbone_plan("mobilenet_v2", "block_1_expand_relu", 1, {}))[0],
              Catch::Contains("to block_1_expand_relu"));
-  CHECK_THAT(backbone_plan("mobilenet_v2", "predictions", 1), Catch::Contains("\npredictions "));
-  CHECK_THROWS_WITH(backbone_plan("vgg20", "", 1), Catch::Contains("there is no backbone 'vgg20', did you mean"));
+  CHECK_THAT(backbone_plan("mobilenet_v2", "predictions", 1, {}), Catch::Contains("\npredictions "));
+  CHECK_THROWS_WITH(backbone_plan("vgg20", "", 1, {}), Catch::Contains("there is no backbone 'vgg20', did you mean"));
 }

@@ -89,3 +89,39 @@ TEST_CASE("svnet-predict says what is wrong") {
   CHECK(place.run("model.safetensors").status == 2);
   CHECK(place.run("model.safetensors --image top.png --grid --poses poses.csv").status == 2);
 }
+
+TEST_CASE("svnet-predict takes an image through a pipe and writes the plot to standard output alone") {
+  const Workplace place;
+  const Ran plain = place.run("model.safetensors --image top.png --plot plot.png");
+  REQUIRE(plain.status == 0);
+  const std::string piped = "cat top.png | " SVNET_PREDICT " model.safetensors --image /dev/stdin";
+  CHECK(run_shell(place.folder.path(), piped).out == plain.out);
+  const Ran picture = place.run("model.safetensors --image top.png --plot /dev/stdout | cat");
+  CHECK(picture.status == 0);
+  CHECK(picture.out == file_contents(place.folder.path() / "plot.png"));
+  CHECK(place.run("model.safetensors --image top.png --plot /dev/stdout > out.png").status == 0);
+  CHECK(file_contents(place.folder.path() / "out.png") == file_contents(place.folder.path() / "plot.png"));
+}
+
+TEST_CASE("svnet-predict warns of an EXIF orientation, or obeys it") {
+  const Workplace place;
+  std::filesystem::copy_file(std::filesystem::path(SVNET_FIXTURES) / "pictures/turned.jpg",
+                             place.folder.path() / "turned.jpg");
+  const Ran ignored = place.run("model.safetensors --image turned.jpg");
+  CHECK(ignored.err ==
+        "turned.jpg: the EXIF orientation 6 is ignored; --exif-orientation obey turns the picture as viewers do\n");
+  const Ran obeyed = place.run("model.safetensors --image turned.jpg --exif-orientation obey");
+  CHECK(obeyed.err.empty());
+  CHECK(obeyed.out != ignored.out);
+  CHECK(place.run("model.safetensors --image turned.jpg --exif-orientation maybe").status == 2);
+}
+
+TEST_CASE("svnet-predict takes angles that are out of range by rounding for the bound") {
+  const Workplace place;
+  place.folder.write("exact.csv", "theta,phi\n0,90\n");
+  place.folder.write("rounded.csv", "\"theta\",\"phi\"\n+0,90.00000250447816\n");
+  const Ran exact = place.run("model.safetensors --image top.png --poses exact.csv --json");
+  const Ran rounded = place.run("model.safetensors --image top.png --poses rounded.csv --json");
+  CHECK(rounded.status == 0);
+  CHECK(rounded.out == exact.out);
+}

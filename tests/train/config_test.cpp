@@ -337,3 +337,25 @@ TEST_CASE("a pipeline's name is a backbone and a clustering after the last under
   CHECK_THROWS_WITH(enum_from_name<Clustering>("clustering", "wards"),
                     "clustering: 'wards' is none of ward, average, complete, single, kmeans; did you mean 'ward'?");
 }
+
+TEST_CASE("a tab or a no-break space is named, with its place") {
+  CHECK(error_of("dataset:\n\troot: d\n") == "c.yaml:2: a tab in the indentation (column 1); YAML takes spaces only");
+  CHECK(error_of("dataset:\n  root: d\n \theld_out: [a]\n") ==
+        "c.yaml:3: a tab in the indentation (column 2); YAML takes spaces only");
+  CHECK(error_of("dataset:\n  held_out:\n\t- mug\n") ==
+        "c.yaml:3: a tab in the indentation (column 1); YAML takes spaces only");
+  CHECK(error_of("dataset:\n  root:\xc2\xa0photos\n") ==
+        "c.yaml:2: a no-break space (U+00A0) (column 8); YAML takes spaces only");
+  CHECK(error_of("dataset:\n\xc2\xa0 root: d\n") ==
+        "c.yaml:2: a no-break space (U+00A0) (column 1); YAML takes spaces only");
+  // Where they do no harm: in quotes, in comments, in brackets, on empty lines.
+  const Config c = parse(
+      "scores: {problems: 1} #\xc2\xa0\ttext\n\t\n\t# comment\ndataset:\n"
+      "  root: 'a\xc2\xa0\tb'\n  held_out: [car,\n\tdog]\n");
+  CHECK(c.dataset.held_out == std::vector<std::string>{"car", "dog"});
+}
+
+TEST_CASE("the EXIF orientation is ignored unless the configuration says to obey it") {
+  CHECK(parse(kBase).dataset.exif_orientation == ExifOrientation::ignore);
+  CHECK(parse(kBase, {"dataset.exif_orientation=obey"}).dataset.exif_orientation == ExifOrientation::obey);
+}

@@ -60,7 +60,10 @@ class Stages {
   const Features& features(const std::string& backbone, const std::string& layer) {
     return features_.features(backbone, layer);
   }
-  Scores scores() { return scores_stage(run_, features_); }
+  const Scores& scores() {
+    if (!scores_) scores_ = scores_stage(run_, features_);
+    return *scores_;
+  }
   Model model() {
     write_config(run_);
     return model_stage(run_, features_, scores());
@@ -78,6 +81,7 @@ class Stages {
  private:
   Run run_;
   FeaturesStage features_;
+  std::optional<Scores> scores_{};
 };
 
 /// Trains and evaluates in `folder` and returns the hashes of all results.
@@ -315,7 +319,7 @@ TEST_CASE("scores leave out held-out categories") {
   write_small_dataset(temporary.path() / "data");
   const Config config = small_config(temporary.path() / "data");
   Stages run(config, read_view_dataset(config.dataset.root), temporary.path() / "run", {});
-  const Scores scores = run.scores();
+  const Scores& scores = run.scores();
   for (std::size_t i = 0; i < scores.paths.size(); ++i) {
     const bool held_out = scores.paths[i].starts_with("ring/");
     CHECK((scores.count[i] == 0) == held_out);

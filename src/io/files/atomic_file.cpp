@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -76,6 +77,13 @@ fs::path checked_target(const fs::path& path) {
   return target;
 }
 
+/// Whether `path` is a pipe or a character device.
+bool is_stream(const fs::path& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::is_fifo(status) || fs::is_character_file(status);
+}
+
 /// Whether both paths name one file, which need not exist.
 bool same_file(const fs::path& a, const fs::path& b) {
   std::error_code error;
@@ -127,6 +135,10 @@ class Temporary {
 
   void sync_and_rename(const fs::path& target) {
     {
+      struct stat replaced {};
+      constexpr mode_t kModeBits = 07777;
+      if (::stat(target.c_str(), &replaced) == 0 && ::chmod(path_.c_str(), replaced.st_mode & kModeBits) != 0)
+        fail_to_write(target, errno);
       const Descriptor file(::open(path_.c_str(), O_RDONLY | O_CLOEXEC));
       if (file.number() < 0 || synced(file.number()) != 0) fail_to_write(target, errno);
     }
@@ -138,8 +150,7 @@ class Temporary {
   fs::path path_;
 };
 
-void write_all(const fs::path& target, const fs::path& temporary, std::string_view contents) {
-  const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CLOEXEC));
+void write_all(const fs::path& target, const Descriptor& file, std::string_view contents) {
   if (file.number() < 0) fail_to_write(target, errno);
   while (!contents.empty()) {
     const ssize_t written = ::write(file.number(), contents.data(), contents.size());
@@ -166,10 +177,22 @@ void write_atomically(const fs::path& path, const std::function<void(const fs::p
 }
 
 void write_atomically(const fs::path& path, std::string_view contents) {
-  write_atomically(path, [&](const fs::path& temporary) { write_all(path, temporary, contents); });
+  if (is_standard_output(path)) return write_all(path, Descriptor(::dup(STDOUT_FILENO)), contents);
+  if (is_stream(path)) return write_all(path, Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC)), contents);
+  write_atomically(path, [&](const fs::path& temporary) {
+    write_all(path, Descriptor(::open(temporary.c_str(), O_WRONLY | O_CLOEXEC)), contents);
+  });
 }
 
-void check_can_be_written(const fs::path& path, const std::vector<fs::path>& others) {
+bool is_standard_output(const fs::path& path) {
+  struct stat file {
+  }, output{};
+  return !path.empty() && ::stat(path.c_str(), &file) == 0 && ::fstat(STDOUT_FILENO, &output) == 0 &&
+         file.st_dev == output.st_dev && file.st_ino == output.st_ino;
+}
+
+void check_can_be_written(const fs::path& path, const std::vector<fs::path>& others, Streams streams) {
+  if (streams == Streams::allowed && (is_standard_output(path) || is_stream(path))) return;
   const Temporary temporary(checked_target(path));
   for (const fs::path& other : others)
     check(other.empty() || !same_file(path, other), path.string(),

@@ -22,18 +22,30 @@ std::vector<std::uint8_t> picture_contents(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   check(status.type() != fs::file_type::not_found, name, ": no such file");
   check(!fs::is_directory(status), name, ": is a folder, expected a picture (PNG, JPEG or WebP)");
-  check(!fs::exists(status) || fs::is_regular_file(status), name, ": is not a regular file, expected a picture");
+  check(!fs::exists(status) || fs::is_regular_file(status) || fs::is_fifo(status), name,
+        ": is not a regular file, expected a picture");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   check(file.is_open(), name, ": cannot be read: ", std::generic_category().message(errno));
-  const std::uintmax_t size = fs::file_size(path, error);
+  // A pipe has no size: it is read in pieces.
+  const std::uintmax_t size = fs::is_fifo(status) ? kMaximumFileSize : fs::file_size(path, error);
   check(!error, name, ": cannot be read: ", error.message());
-  check(size > 0, name, ": is empty, expected a picture (PNG, JPEG or WebP)");
   check(size <= kMaximumFileSize, name, ": has ", size, " bytes, more than a picture of 64 megapixels needs");
-  std::vector<std::uint8_t> bytes(size);
-  file.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  check(static_cast<std::uintmax_t>(file.gcount()) == size, name,
-        ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
+  std::vector<std::uint8_t> bytes;
+  constexpr std::uintmax_t kPiece = 1 << 20;
+  while (bytes.size() < size && file) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + std::min(size - before, fs::is_fifo(status) ? kPiece : size));
+    file.read(reinterpret_cast<char*>(bytes.data() + before), static_cast<std::streamsize>(bytes.size() - before));
+    bytes.resize(before + static_cast<std::size_t>(file.gcount()));
+  }
+  if (fs::is_fifo(status)) {
+    check(!file.bad(), name, ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
+    check(bytes.size() < kMaximumFileSize, name, ": has more bytes than a picture of 64 megapixels needs");
+  } else {
+    check(bytes.size() == size, name, ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
+  }
+  check(!bytes.empty(), name, ": is empty, expected a picture (PNG, JPEG or WebP)");
   return bytes;
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "image/depth_image.h"
 #include "image/image.h"
 
 // The image formats, and what they share. A decoder takes the contents of a whole file and throws Error unless it can
@@ -17,6 +19,9 @@ using Bytes = std::span<const std::uint8_t>;
 Image decode_jpeg(const std::string& name, Bytes file);
 Image decode_png(const std::string& name, Bytes file);
 Image decode_webp(const std::string& name, Bytes file);
+
+/// The EXIF orientation of a JPEG, PNG or WebP file, 1 to 8; 1 if it has none.
+int exif_orientation(Bytes file);
 
 /// The contents of a PNG file with 8-bit RGB pixels.
 std::string encoded_png(const std::string& name, const Image& image);
@@ -34,7 +39,17 @@ std::string encoded_grey16_png(const std::string& name, const Grey16&);
 /// `levels`: one 8-bit channel, (height, width).
 std::string encoded_grey_png(const std::string& name, Index height, Index width, std::span<const std::uint8_t> levels);
 
-/// The bytes of a file. Throws Error that names it if it cannot be read, is empty, or is larger than 1 GiB.
+/// Whether a file begins as NumPy's .npy files do.
+bool is_npy(Bytes file);
+/// Depth from a .npy file: see read_depth.
+DepthImage decode_npy_depth(const std::string& name, Bytes file, std::optional<double> unit_m);
+/// No scene of a robot is as deep; larger values are in another unit.
+constexpr double kFarthest_m = 100;
+/// The depth, or 0 if `z_m` means that the pixel was not measured.
+float depth_or_zero(double z_m);
+
+/// The bytes of a file, or all that comes from a pipe. Throws Error that names it if it cannot be read, is empty, or is
+/// larger than 1 GiB.
 std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
 /// Whether the bytes `expected` are at `offset`.
 bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);

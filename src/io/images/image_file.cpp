@@ -1,22 +1,44 @@
 #include "io/images/image_file.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/error.h"
+#include "image/oriented.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_codecs.h"
 
 namespace svnet {
 
-Image read_image(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> file = picture_contents(path);
-  const std::string name = path.string();
+namespace {
+
+Image decoded(const std::string& name, Bytes file) {
   if (has_bytes(file, 0, "\xff\xd8\xff")) return decode_jpeg(name, file);
   if (has_bytes(file, 0, "\x89PNG\r\n\x1a\n")) return decode_png(name, file);
   if (has_bytes(file, 0, "RIFF") && has_bytes(file, 8, "WEBP")) return decode_webp(name, file);
   fail(name, ": is not a PNG, JPEG or WebP picture, whatever its name says");
 }
+
+}  // namespace
+
+Picture read_picture(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> file = picture_contents(path);
+  return {decoded(path.string(), file), exif_orientation(file)};
+}
+
+Image read_image(const std::filesystem::path& path, ExifOrientation exif) {
+  Picture picture = read_picture(path);
+  switch (exif) {
+    case ExifOrientation::ignore:
+      return std::move(picture.image);
+    case ExifOrientation::obey:
+      return oriented(std::move(picture.image), picture.exif_orientation);
+  }
+  return {};
+}
+
+int read_exif_orientation(const std::filesystem::path& path) { return exif_orientation(picture_contents(path)); }
 
 void write_png(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encoded_png(path.string(), image));

@@ -1,18 +1,32 @@
 #pragma once
 #include <filesystem>
 
+#include "base/exif_orientation.h"
 #include "image/image.h"
 
 namespace svnet {
 
 /// Reads a PNG, JPEG or WebP image as RGB, with the pixels of Pillow's Image.open(path).convert("RGB"): grey becomes
-/// three equal channels, a palette its colours, and transparency is dropped without blending. A 16-bit PNG keeps the
-/// upper byte of each level (Pillow clips 16-bit grey instead). EXIF orientation is ignored.
+/// three equal channels, a palette its colours, CMYK and YCCK (JPEG) are converted without a colour profile, and
+/// transparency is dropped without blending. A 16-bit PNG keeps the upper byte of each level (Pillow clips 16-bit grey
+/// instead). EXIF orientation is ignored, unless `exif` says to obey it.
 ///
-/// The contents tell the format, not the name. Throws Error that names `path` for a file that cannot be read, has
-/// another format, has more than 64 megapixels (checked before decoding), is truncated or damaged, or is an animated
-/// WebP or a CMYK JPEG. Writes nothing to stderr. Thread-safe.
-Image read_image(const std::filesystem::path& path);
+/// `path` may be a pipe. The contents tell the format, not the name. Throws Error that names `path` for a file that
+/// cannot be read, has another format, has more than 64 megapixels (checked before decoding), is truncated or damaged,
+/// or is an animated WebP. Writes nothing to stderr. Thread-safe.
+Image read_image(const std::filesystem::path& path, ExifOrientation exif = ExifOrientation::ignore);
+
+/// An image as it is stored, and its EXIF orientation, 1 to 8; 1 if it has none.
+struct Picture {
+  Image image;
+  int exif_orientation = 1;
+};
+
+/// Reads a file once, for both. Throws Error as read_image does.
+Picture read_picture(const std::filesystem::path& path);
+
+/// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or is no picture.
+int read_exif_orientation(const std::filesystem::path& path);
 
 /// Writes an 8-bit RGB PNG atomically (io/files/atomic_file.h). Throws Error that names `path`.
 void write_png(const std::filesystem::path& path, const Image& image);

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <csetjmp>
 #include <cstdio>
+#include <vector>
 
 #include <jerror.h>
 #include <jpeglib.h>
@@ -39,13 +41,15 @@ class JpegDecoder {
   int channels() const { return jpeg_.num_components; }
   const char* reason() const { return errors_.message; }
 
-  /// Decodes the whole file, including the end marker. rgb (height, width, 3).
-  bool read_pixels(std::uint8_t* rgb) {
+  /// Decodes the whole file, including the end marker. pixels (height, width, 3): RGB; of a file with four channels
+  /// (height, width, 4): CMYK as stored.
+  bool read_pixels(std::uint8_t* pixels) {
     if (setjmp(errors_.back) != 0) return false;
-    jpeg_.out_color_space = JCS_RGB;
+    const std::size_t channels = jpeg_.num_components == 4 ? 4 : 3;
+    jpeg_.out_color_space = channels == 4 ? JCS_CMYK : JCS_RGB;
     jpeg_start_decompress(&jpeg_);
     while (jpeg_.output_scanline < jpeg_.output_height) {
-      JSAMPROW row = rgb + std::size_t{jpeg_.output_scanline} * jpeg_.output_width * 3;
+      JSAMPROW row = pixels + std::size_t{jpeg_.output_scanline} * jpeg_.output_width * channels;
       jpeg_read_scanlines(&jpeg_, &row, 1);
     }
     jpeg_finish_decompress(&jpeg_);
@@ -75,15 +79,34 @@ class JpegDecoder {
   jpeg_decompress_struct jpeg_{};
 };
 
+/// a * b / 255, rounded.
+std::uint8_t product(int a, int b) {
+  const int x = a * b + 128;
+  return static_cast<std::uint8_t>(((x >> 8) + x) >> 8);
+}
+
+/// As Pillow converts: the four channels are inverted, as Adobe's programs store them, and black darkens the others.
+void convert_cmyk(const std::vector<std::uint8_t>& stored, std::vector<std::uint8_t>& rgb) {
+  for (std::size_t i = 0; i < rgb.size() / 3; ++i) {
+    const int white = stored[4 * i + 3];  // 255 - black
+    for (std::size_t c = 0; c < 3; ++c)
+      rgb[3 * i + c] = static_cast<std::uint8_t>(std::max(0, white - product(255 - stored[4 * i + c], white)));
+  }
+}
+
 }  // namespace
 
 Image decode_jpeg(const std::string& name, Bytes file) {
   JpegDecoder decoder(file);
   if (!decoder.read_header()) fail_damaged(name, "JPEG", decoder.reason());
-  check(decoder.channels() == 1 || decoder.channels() == 3, name, ": is a JPEG picture with ", decoder.channels(),
-        " colour channels, expected 1 (grey) or 3; convert it to RGB");
+  const int channels = decoder.channels();
+  check(channels == 1 || channels == 3 || channels == 4, name, ": is a JPEG picture with ", channels,
+        " colour channels, expected 1 (grey), 3 or 4 (CMYK); convert it to RGB");
   Image image = image_of_size(name, decoder.height(), decoder.width());
-  if (!decoder.read_pixels(image.rgb.data())) fail_damaged(name, "JPEG", decoder.reason());
+  std::vector<std::uint8_t> stored(channels == 4 ? image.rgb.size() / 3 * 4 : 0);
+  if (!decoder.read_pixels(channels == 4 ? stored.data() : image.rgb.data()))
+    fail_damaged(name, "JPEG", decoder.reason());
+  if (channels == 4) convert_cmyk(stored, image.rgb);
   return image;
 }
 

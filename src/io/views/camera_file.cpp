@@ -2,30 +2,76 @@
 
 #include <cmath>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
+
+#include <yaml-cpp/yaml.h>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/views/camera_layouts.h"
 
 namespace svnet {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;  // for reading too: a second kind of JSON takes seconds to compile
 
-/// The numbers of an object with exactly these keys, and `optional` perhaps.
-std::vector<double> numbers(const json& object, const std::string& where, const std::vector<std::string>& keys,
-                            const std::string& optional = "") {
-  check(object.is_object(), where, ": is no JSON object");
-  for (const auto& [key, value] : object.items())
-    check(key == optional || std::find(keys.begin(), keys.end(), key) != keys.end(), where, ": the key '",
-          printable(key), "' is not known");
-  std::vector<double> values;
-  for (const std::string& key : keys) {
-    check(object.contains(key), where, ": the key '", key, "' is missing");
-    check(object.at(key).is_number(), where, ": ", key, " is not a number");
-    values.push_back(object.at(key).get<double>());
+/// YAML as JSON: a scalar without quotes that is a number becomes one.
+json json_of(const YAML::Node& node) {
+  switch (node.Type()) {
+    case YAML::NodeType::Scalar: {
+      double number = 0;
+      const std::string& text = node.Scalar();
+      if (node.Tag() != "!" && parse_number(text, number)) return number;
+      return text;
+    }
+    case YAML::NodeType::Sequence: {
+      json list = json::array();
+      for (const YAML::Node& item : node) list.push_back(json_of(item));
+      return list;
+    }
+    case YAML::NodeType::Map: {
+      json mapping = json::object();
+      for (const auto& entry : node) mapping[entry.first.Scalar()] = json_of(entry.second);
+      return mapping;
+    }
+    case YAML::NodeType::Null:
+    case YAML::NodeType::Undefined:
+      return nullptr;
   }
-  return values;
+  return nullptr;
+}
+
+/// `text` as JSON if it begins like JSON, otherwise as YAML; rostopic and ros2 topic echo end a message with "---".
+json document_in(const std::string& text, const std::string& name) {
+  const auto first = text.find_first_not_of(" \t\r\n");
+  check(first != std::string::npos, name, ": is empty, expected a camera");
+  if (text[first] == '{' || text[first] == '[') {
+    try {
+      return json::parse(text);
+    } catch (const json::exception& error) {
+      fail(name, ": is not JSON: ", printable(error.what()));
+    }
+  }
+  try {
+    return json_of(YAML::Load(text));
+  } catch (const YAML::Exception& error) {
+    fail(name, ":", error.mark.line + 1, ": is neither JSON nor YAML: ", printable(error.msg));
+  }
+}
+
+Eigen::Isometry3d pose_of(const json& pose, const std::string& name) {
+  const std::vector<std::string> keys{"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"};
+  check(pose.is_object(), name, ": is no mapping of keys to values");
+  check_keys(pose, name, keys);
+  std::vector<double> p;
+  for (const std::string& key : keys) p.push_back(number_at(pose, name, key));
+  const Eigen::Quaterniond rotation(p[6], p[3], p[4], p[5]);
+  check(std::abs(rotation.norm() - 1) < 1e-3, name, ": the quaternion has length ", rotation.norm(), ", expected 1");
+  constexpr double kFarthest_m = 1e6;
+  for (int i = 0; i < 3; ++i)
+    check(std::abs(p[i]) < kFarthest_m, name, ": ", "xyz"[i], "_m is ", p[i], ", expected metres in the world");
+  return Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
 }
 
 }  // namespace
@@ -33,35 +79,18 @@ std::vector<double> numbers(const json& object, const std::string& where, const 
 CameraFile read_camera(const std::filesystem::path& path) {
   const std::string name = path.string();
   std::ifstream file(path, std::ios::binary);
-  check(file && !std::filesystem::is_directory(path), name, ": cannot be read; expected a JSON file of a camera");
-  json document;
-  try {
-    document = json::parse(file);
-  } catch (const json::exception& error) {
-    fail(name, ": is not JSON: ", printable(error.what()));
-  }
-  const auto n = numbers(document, name, {"width", "height", "fx", "fy", "cx", "cy"}, "pose");
-  for (int i = 0; i < 2; ++i)
-    check(n[i] == std::floor(n[i]) && std::abs(n[i]) < 1e6, name, ": ", i == 0 ? "width" : "height", " is ", n[i],
-          ", expected a number of pixels");
-  CameraFile camera{{static_cast<Index>(n[0]), static_cast<Index>(n[1]), n[2], n[3], n[4], n[5]}, {}};
-  const std::string problem = intrinsics_problem(camera.intrinsics);
-  check(problem.empty(), name, ": ", problem);
-  if (!document.contains("pose")) return camera;
-  const auto p = numbers(document.at("pose"), name + ": pose", {"x_m", "y_m", "z_m", "qx", "qy", "qz", "qw"});
-  const Eigen::Quaterniond rotation(p[6], p[3], p[4], p[5]);
-  check(std::abs(rotation.norm() - 1) < 1e-3, name, ": pose: the quaternion has length ", rotation.norm(),
-        ", expected 1");
-  constexpr double kFarthest_m = 1e6;
-  for (int i = 0; i < 3; ++i)
-    check(std::abs(p[i]) < kFarthest_m, name, ": pose: ", "xyz"[i], "_m is ", p[i], ", expected metres in the world");
-  camera.camera_to_world = Eigen::Translation3d(p[0], p[1], p[2]) * rotation.normalized();
+  check(file && !std::filesystem::is_directory(path), name,
+        ": cannot be read; expected a JSON or YAML file of a camera");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const json document = document_in(text, name);
+  CameraFile camera{intrinsics_of(document, name), {}};
+  if (document.contains("pose")) camera.camera_to_world = pose_of(document.at("pose"), name + ": pose");
   return camera;
 }
 
 std::string camera_json(const CameraFile& camera) {
   const Intrinsics& k = camera.intrinsics;
-  nlohmann::ordered_json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx},
+  json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx},
                                   {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
   if (camera.camera_to_world) {
     const Eigen::Vector3d t = camera.camera_to_world->translation();

@@ -15,8 +15,9 @@ struct CameraFile {
 };
 
 /// A JSON file: {"width": 640, "height": 480, "fx": 600, "fy": 600, "cx": 319.5, "cy": 239.5, "pose": {"x_m": 0, "y_m":
-/// 0, "z_m": 1, "qx": 0, "qy": 1, "qz": 0, "qw": 0}}. The key "pose" is optional. Throws Error that names the file and
-/// the key for anything else.
+/// 0, "z_m": 1, "qx": 0, "qy": 1, "qz": 0, "qw": 0}}, or the same as YAML. The key "pose" is optional. Intrinsics may
+/// also have the layout of ROS or RealSense (camera_layouts.h). Throws Error that names the file and the key for
+/// anything else.
 CameraFile read_camera(const std::filesystem::path& path);
 
 /// The text of such a file.

@@ -1,6 +1,7 @@
 #include "io/views/dataset_folder.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <numeric>
@@ -13,6 +14,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "io/files/file_hash.h"
+#include "io/views/composed_name.h"
 
 namespace svnet {
 namespace {
@@ -21,20 +23,40 @@ namespace fs = std::filesystem;
 
 constexpr const char* kViewNames = "PHI_THETA.png, .jpg, .jpeg or .webp, such as 45_90.png";
 
-/// The entries of a folder that are not ignored, in natural order of their names.
-std::vector<fs::path> entries(const fs::path& folder) {
+/// Files and folders that systems leave beside pictures, in lower case.
+constexpr std::array<std::string_view, 9> kLeftBySystems{".ds_store",    "@eadir",      "thumbs.db",
+                                                         "ehthumbs.db",  "desktop.ini", "lost+found",
+                                                         "$recycle.bin", "icon\r",      "system volume information"};
+
+bool is_left_by_system(const fs::path& name) {
+  const std::string lower = lower_case(name.native());
+  return std::find(kLeftBySystems.begin(), kLeftBySystems.end(), lower) != kLeftBySystems.end() ||
+         lower.starts_with("._");
+}
+
+/// The entries of a folder that are not ignored, in natural order of their names. Appends what systems left to
+/// `dataset.ignored`.
+std::vector<fs::path> entries(const fs::path& folder, ViewDataset& dataset) {
   std::vector<fs::path> found;
+  std::vector<std::string> ignored;
   try {
-    for (const auto& entry : fs::directory_iterator(folder))
-      if (!is_ignored_name(entry.path().filename())) found.push_back(entry.path());
+    for (const auto& entry : fs::directory_iterator(folder)) {
+      const fs::path& path = entry.path();
+      if (is_left_by_system(path.filename()))
+        ignored.push_back(path.lexically_relative(dataset.root).generic_string());
+      else if (!is_ignored_name(path.filename()))
+        found.push_back(path);
+    }
   } catch (const fs::filesystem_error& error) {
     fail(folder.string(), ": cannot be read: ", error.code().message());
   }
   for (const fs::path& path : found)
     check(is_plain_utf8(path.filename().native()), printable(path.string()), ": its name is not UTF-8; rename it");
   std::sort(found.begin(), found.end(), [](const fs::path& a, const fs::path& b) {
-    return natural_less(a.filename().native(), b.filename().native());
+    return natural_less(composed_name(a.filename().native()), composed_name(b.filename().native()));
   });
+  std::sort(ignored.begin(), ignored.end());
+  dataset.ignored.insert(dataset.ignored.end(), ignored.begin(), ignored.end());
   return found;
 }
 
@@ -49,8 +71,8 @@ bool is_file(const fs::path& path) {
 }
 
 /// The subfolders of `folder`. `what` it is and the `part` that each of them is are words for messages.
-std::vector<fs::path> subfolders(const fs::path& folder, const char* what, const char* part) {
-  std::vector<fs::path> found = entries(folder);
+std::vector<fs::path> subfolders(const fs::path& folder, const char* what, const char* part, ViewDataset& dataset) {
+  std::vector<fs::path> found = entries(folder, dataset);
   for (const fs::path& path : found)
     check(is_folder(path), path.string(), ": stray file; ", what, " holds folders only, ", part,
           " each (names that begin with '_' or '.' are ignored)");
@@ -93,7 +115,7 @@ Angles angles_of(const fs::path& path) {
 }
 
 void read_pose(const fs::path& folder, Index object, ViewDataset& dataset) {
-  const std::vector<fs::path> files = entries(folder);
+  const std::vector<fs::path> files = entries(folder, dataset);
   check(!files.empty(), folder.string(), ": pose without views; expected ", kViewNames);
   const auto number = static_cast<Index>(dataset.poses.size());
   const Index category = dataset.objects[static_cast<std::size_t>(object)].category;
@@ -115,9 +137,11 @@ void read_pose(const fs::path& folder, Index object, ViewDataset& dataset) {
 
 }  // namespace
 
-bool is_ignored_name(const fs::path& name) { return name.native().front() == '_' || name.native().front() == '.'; }
+bool is_ignored_name(const fs::path& name) {
+  return name.native().front() == '_' || name.native().front() == '.' || is_left_by_system(name);
+}
 
-ViewDataset read_view_dataset(const fs::path& root) {
+ViewDataset read_view_dataset(const fs::path& root, ExifOrientation exif_orientation) {
   std::error_code error;
   const fs::file_status status = fs::status(root, error);
   check(status.type() != fs::file_type::not_found, root.string(), ": no such folder; expected a data set (folders ",
@@ -128,15 +152,22 @@ ViewDataset read_view_dataset(const fs::path& root) {
 
   ViewDataset dataset;
   dataset.root = root;
-  for (const fs::path& category : entries(root)) {
-    if (is_file(category)) continue;
+  dataset.exif_orientation = exif_orientation;
+  for (const fs::path& category : entries(root, dataset)) {
+    const std::string name = composed_name(category.filename().string());
+    if (is_file(category)) {
+      if (name != "manifest.json") dataset.ignored.push_back(category.filename().string());
+      continue;
+    }
     check(is_folder(category), category.string(), ": neither a file nor a folder; expected a category's folder");
-    for (const fs::path& object : subfolders(category, "a category", "an object")) {
+    for (const fs::path& object : subfolders(category, "a category", "an object", dataset)) {
       dataset.objects.push_back({object.filename().string(), static_cast<Index>(dataset.categories.size())});
-      for (const fs::path& pose : subfolders(object, "an object", "a pose"))
+      for (const fs::path& pose : subfolders(object, "an object", "a pose", dataset))
         read_pose(pose, static_cast<Index>(dataset.objects.size()) - 1, dataset);
     }
-    dataset.categories.push_back(category.filename().string());
+    check(dataset.categories.empty() || dataset.categories.back() != name, category.string(),
+          ": the same category as another folder, whose name has its accents in another Unicode form; rename one");
+    dataset.categories.push_back(name);
   }
   check(!dataset.categories.empty(), root.string(), ": data set without categories; expected folders ",
         "category/object/pose with views ", kViewNames);
@@ -146,8 +177,9 @@ ViewDataset read_view_dataset(const fs::path& root) {
 std::string fingerprint(const ViewDataset& dataset, Parallel& parallel) {
   std::vector<std::size_t> order(dataset.views.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return dataset.views[a].path < dataset.views[b].path; });
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return composed_name(dataset.views[a].path) < composed_name(dataset.views[b].path);
+  });
   std::vector<std::string> hashes(order.size());
   parallel.for_chunks(static_cast<Index>(order.size()), 16, [&](Index begin, Index end, int) {
     for (Index i = begin; i < end; ++i)
@@ -155,7 +187,15 @@ std::string fingerprint(const ViewDataset& dataset, Parallel& parallel) {
           file_sha256(dataset.root / dataset.views[order[static_cast<std::size_t>(i)]].path);
   });
   Sha256 all;
-  for (std::size_t i = 0; i < order.size(); ++i) all.update_field(dataset.views[order[i]].path).update_field(hashes[i]);
+  for (std::size_t i = 0; i < order.size(); ++i)
+    all.update_field(composed_name(dataset.views[order[i]].path)).update_field(hashes[i]);
+  switch (dataset.exif_orientation) {
+    case ExifOrientation::ignore:
+      break;
+    case ExifOrientation::obey:
+      all.update_field("exif orientation obeyed");
+      break;
+  }
   return all.hex();
 }
 

@@ -1,28 +1,28 @@
 #include "io/views/pose_list_file.h"
 
-#include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 #include <string_view>
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/views/csv_reader.h"
 
 namespace svnet {
 namespace {
 
-constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin UTF-8 with it
-
 std::string_view trimmed(std::string_view text) {
-  constexpr std::string_view kBlank = " \t\r";
+  constexpr std::string_view kBlank = " \t\r\n";
   const auto first = text.find_first_not_of(kBlank);
   return first == std::string_view::npos ? "" : text.substr(first, text.find_last_not_of(kBlank) - first + 1);
 }
 
-/// Column `index` of a line of comma-separated values; empty if there are fewer columns.
-std::string_view column(std::string_view line, int index) {
-  for (; index > 0; --index) line.remove_prefix(std::min(line.find(','), line.size() - 1) + 1);
-  return trimmed(line.substr(0, line.find(',')));
+/// A number with spaces around it, and perhaps a plus sign before it.
+bool parse_field(std::string_view field, double& number) {
+  std::string_view text = trimmed(field);
+  if (text.starts_with('+') && text.size() > 1 && text[1] != '-' && text[1] != '+') text.remove_prefix(1);
+  return parse_number(text, number);
 }
 
 }  // namespace
@@ -30,29 +30,27 @@ std::string_view column(std::string_view line, int index) {
 std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   check(file && !std::filesystem::is_directory(path), path.string(), ": cannot be read; expected a CSV file of poses");
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   std::vector<CameraPose> poses;
-  std::ptrdiff_t commas = -1;  // of the header
-  std::string line;
-  for (long number = 1; std::getline(file, line); ++number) {
-    std::string_view text = line;
-    if (number == 1 && text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-    text = trimmed(text);
-    if (text.empty()) continue;
-    const std::string_view first = column(text, 0), second = column(text, 1);
-    const auto commas_here = std::count(text.begin(), text.end(), ',');
-    if (commas < 0) {
-      check(first == "theta" && second == "phi", path.string(), ":", number, ": the header is '", printable(text),
-            "', expected 'theta,phi'");
-      commas = commas_here;
+  CsvReader reader(text, path.string());
+  std::size_t columns = 0;  // of the header
+  while (reader.next()) {
+    const std::vector<std::string>& fields = reader.fields();
+    const std::string at = joined(path.string(), ":", reader.line(), ": ");
+    if (fields.size() == 1 && trimmed(fields[0]).empty()) continue;
+    const std::string shown = printable(trimmed(reader.text()));
+    if (columns == 0) {
+      check(fields.size() >= 2 && trimmed(fields[0]) == "theta" && trimmed(fields[1]) == "phi", at, "the header is '",
+            shown, "', expected 'theta,phi'");
+      columns = fields.size();
       continue;
     }
-    check(commas_here == commas, path.string(), ":", number, ": '", printable(text), "' has ", commas_here + 1,
-          " columns, the header ", commas + 1);
+    check(fields.size() == columns, at, "'", shown, "' has ", fields.size(), " columns, the header ", columns);
     CameraPose pose;
-    check(parse_number(first, pose.theta_deg) && parse_number(second, pose.phi_deg), path.string(), ":", number, ": '",
-          printable(text), "' does not begin with two numbers, theta and phi in degrees");
+    check(parse_field(fields[0], pose.theta_deg) && parse_field(fields[1], pose.phi_deg), at, "'", shown,
+          "' does not begin with two numbers, theta and phi in degrees");
     const std::string problem = pose_problem(pose);
-    check(problem.empty(), path.string(), ":", number, ": ", problem);
+    check(problem.empty(), at, problem);
     poses.push_back(clamped_pose(pose));
   }
   check(!file.bad(), path.string(), ": cannot be read to its end");

@@ -39,7 +39,7 @@ struct Epilogue {
   bool empty() const { return bias == nullptr && clamp == Clamp::none; }
 };
 
-/// Applies the epilogue to `rows` rows of `columns` numbers that are `stride` apart; bias is that of the first column.
+/// Applies the epilogue to y (rows, columns), whose rows are `stride` apart. bias[0] belongs to the first column.
 template <class T>
 void apply_reference(const Epilogue<T>& epilogue, Index rows, Index columns, Index stride, T* y);
 void apply(const Epilogue<float>& epilogue, Index rows, Index columns, Index stride, float* y);

@@ -16,11 +16,11 @@ struct GemmShape {
 template <class T>
 void gemm_serial(const GemmShape& shape, const T* a, const T* b, T* c);
 
-/// Cut into tiles of c whose size depends on the shape alone: the same bits for any number of threads.
+/// In parallel over tiles of c. Their size depends only on the shape: the same bits for any number of threads.
 template <class T>
 void gemm(Parallel& parallel, const GemmShape& shape, const T* a, const T* b, T* c);
 
-/// Three plain loops, sums in order of k: the test oracle.
+/// Three plain loops with sums in order of k: the test oracle.
 template <class T>
 void gemm_reference(const GemmShape& shape, const T* a, const T* b, T* c);
 

@@ -8,7 +8,6 @@ namespace svnet {
 namespace {
 
 using namespace looks;
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// blade length, handle length, ring radius, opening in degrees, blade width; metal, handles
 void scissors(Sculptor& s, const Design& d) {

@@ -8,7 +8,6 @@ namespace svnet {
 namespace {
 
 using namespace looks;
-constexpr float kPi = std::numbers::pi_v<float>;
 
 /// length, height, back height, teeth, thickness, handle length; body
 void comb(Sculptor& s, const Design& d) {
@@ -40,7 +39,7 @@ void comb(Sculptor& s, const Design& d) {
 void toothbrush(Sculptor& s, const Design& d) {
   const float length = d[0], w = d[1], head = d[2], wide = d[3], bristle = d[4], bend = d[5];
   const float neck = length - head;
-  const auto curve = [&](float x) { return bend * std::sin(kPi * x / neck); };
+  const auto curve = [&](float x) { return bend * std::sin(std::numbers::pi_v<float> * x / neck); };
   s.use(d.look[0]);
   s.strip({{0, w * 0.35f, 4, curve(0)},
            {6, w * 0.48f, 6.5f, curve(6)},
@@ -67,7 +66,8 @@ void toothbrush(Sculptor& s, const Design& d) {
         if ((i / 2) % 2 != pass) continue;
         const float u = (static_cast<float>(i) + 0.5f) / static_cast<float>(columns),
                     v = (static_cast<float>(k) + 0.5f) / rows * 2 - 1;
-        const float high = bristle * (1 + 0.12f * std::cos(6 * kPi * u) - (k == 0 || k == rows - 1 ? 0.06f : 0.0f));
+        const float high = bristle * (1 + 0.12f * std::cos(6 * std::numbers::pi_v<float> * u) -
+                                      (k == 0 || k == rows - 1 ? 0.06f : 0.0f));
         s.cylinder(1.05f, high, 0.3f).move(neck + head * (0.06f + 0.86f * u), v * wide * 0.4f, high / 2 + 1.5f);
       }
   }
@@ -206,11 +206,11 @@ void watch(Sculptor& s, const Design& d) {
     std::vector<Path> rings;
     for (int i = 0; i <= 24; ++i) {
       const float t = static_cast<float>(i) / 24, narrow = w / 2 * (1 - 0.18f * t);
-      const float angle = loop ? kPi * 1.02f * t : 0.5f * t * t;
-      const float round = loop ? (strap * 0.9f + r) / kPi : 1e6f;
+      const float angle = loop ? std::numbers::pi_v<float> * 1.02f * t : 0.5f * t * t;
+      const float round = loop ? (strap * 0.9f + r) / std::numbers::pi_v<float> : 1e6f;
       const Vec3 at =
           loop ? Vec3(0, side * (r * 0.6f + round * std::sin(angle) * 0.9f), -round * (1 - std::cos(angle)) - 1)
-               : Vec3(0, side * (r + reach * t), -h * 0.15f - 1.5f * std::sin(kPi * t));
+               : Vec3(0, side * (r + reach * t), -h * 0.15f - 1.5f * std::sin(std::numbers::pi_v<float> * t));
       const Vec3 out = loop ? Vec3(0, side * std::sin(angle), std::cos(angle)) : Vec3(0, 0, 1);
       const float half = 1.4f;
       Path ring{at + Vec3(-narrow, 0, 0) - half * out, at + Vec3(narrow, 0, 0) - half * out,

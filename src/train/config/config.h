@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/exif_orientation.h"
 #include "base/index.h"
 #include "models/sv_net.h"
 #include "nn/optim/optimizer.h"
@@ -19,6 +20,7 @@ struct Config {
   struct Dataset {
     std::filesystem::path root;
     std::vector<std::string> held_out;
+    ExifOrientation exif_orientation = ExifOrientation::ignore;
   };
   struct Weights {
     std::filesystem::path folder;  ///< empty: built-in weights, or random ones

@@ -102,6 +102,8 @@ std::vector<BoundKey> bound_keys(Config& c) {
                   "Folder of the images, CATEGORY/OBJECT/POSE/PHI_THETA.png (or .jpg, .jpeg, .webp)."),
       names(Stage::scores, "dataset.held_out", c.dataset.held_out,
             "Categories that take part neither in the scores nor in training."),
+      choice(Stage::features, "dataset.exif_orientation", c.dataset.exif_orientation,
+             "Take pixels as stored, or turn them as the EXIF orientation says."),
 
       folder_path(Stage::features, "weights.folder", c.weights.folder, "a folder, or \"\"",
                   "Folder of pretrained weights. Empty: built-in weights, or random ones."),

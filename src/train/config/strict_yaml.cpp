@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "train/config/yaml_blanks.h"
 
 namespace svnet {
 namespace {
@@ -110,6 +111,9 @@ YamlValue parse(const std::string& text, const std::string& source, const std::s
   const std::string start = source == kOverride ? source + " " + root_key : source;
   // Without the last line break yaml-cpp sees a quote that is never closed; with it, it does not.
   const std::string trimmed = text.substr(0, text.find_last_not_of(" \t\r\n") + 1);
+  if (const auto blank = false_blank(text))
+    fail(start, source == kOverride ? "" : joined(":", blank->line), ": ", blank->what, " (column ", blank->column,
+         "); YAML takes spaces only");
   std::istringstream stream(trimmed);
   TreeBuilder builder(source, root_key);
   try {

@@ -21,6 +21,8 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
   constexpr Index kViews = 3;
   ViewDataset sample;
   sample.root = whole.root;
+  sample.exif_orientation = whole.exif_orientation;
+  sample.ignored = whole.ignored;
   sample.categories = whole.categories;
   std::vector<Index> objects_taken(whole.categories.size(), 0);
   Index last_object = -1;

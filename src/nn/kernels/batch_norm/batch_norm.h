@@ -13,7 +13,7 @@ struct RowsShape {
 template <class T>
 void moments(Parallel&, const RowsShape&, const T* x, T* mean, T* variance);
 
-/// sums (C) of the rows, and of the products a·b where b is given.
+/// sums (C) over the rows of a, or of the products a·b if b is not nullptr.
 template <class T>
 void column_sums(Parallel&, const RowsShape&, const T* a, const T* b, T* sums);
 

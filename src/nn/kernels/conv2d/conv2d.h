@@ -10,13 +10,14 @@ struct Conv2dShape {
   Index k;
 };
 
-/// y = x * w, as rows of windows (made tile by tile, never whole) times w; 1×1 stride 1 reads x in place.
+/// y = x * w, computed as the matrix of windows times w. A tile of windows is gathered at a time; 1×1 windows of stride
+/// 1 are read in place.
 template <class T>
 void conv2d(Parallel&, const Conv2dShape&, const T* x, const T* w, T* y);
 /// dx from dy (N, OH, OW, K).
 template <class T>
 void conv2d_input_gradient(Parallel&, const Conv2dShape&, const T* dy, const T* w, T* dx);
-/// dw from x and dy, one window position (kh, kw) per task.
+/// dw from x and dy. A task computes one window position (kh, kw).
 template <class T>
 void conv2d_weight_gradient(Parallel&, const Conv2dShape&, const T* x, const T* dy, T* dw);
 

@@ -1,5 +1,5 @@
 // Depthwise convolution with multiplier 1, vectorised over channels: for each run of channels the window's products are
-// summed in a register, four output columns at a time where the stride allows weights to be shared.
+// summed in a register.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/depthwise/depthwise.cpp"
 #include "nn/kernels/depthwise/depthwise.h"
@@ -12,8 +12,8 @@ namespace svnet::kernels {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// One output pixel: channels [0, c) of the taps [kh0, kh1) × [kw0, kw1); x at tap (0, 0)'s pixel, which need not
-/// exist.
+/// One output pixel from the taps [kh0, kh1) × [kw0, kw1). x points at the pixel of tap (0, 0), which may lie outside
+/// the image.
 void depthwise_pixel(const Window& win, Index kh0, Index kh1, Index kw0, Index kw1, const float* x, const float* w,
                      float* y) {
   const hn::ScalableTag<float> d;

@@ -18,7 +18,7 @@ struct DepthwiseShape {
 template <class T>
 void depthwise_reference(Parallel&, const DepthwiseShape&, const T* x, const T* w, T* y,
                          const Epilogue<T>& epilogue = {});
-/// Vectorised over channels where the multiplier is 1; otherwise the reference.
+/// Vectorised over channels if the multiplier is 1; otherwise the reference.
 void depthwise(Parallel&, const DepthwiseShape&, const float* x, const float* w, float* y,
                const Epilogue<float>& epilogue = {});
 inline void depthwise(Parallel& parallel, const DepthwiseShape& shape, const double* x, const double* w, double* y,
@@ -28,7 +28,7 @@ inline void depthwise(Parallel& parallel, const DepthwiseShape& shape, const dou
 
 template <class T>
 void depthwise_input_gradient_reference(Parallel&, const DepthwiseShape&, const T* dy, const T* w, T* dx);
-/// Vectorised where the multiplier and the strides are 1.
+/// Vectorised if the multiplier and the strides are 1.
 void depthwise_input_gradient(Parallel&, const DepthwiseShape&, const float* dy, const float* w, float* dx);
 inline void depthwise_input_gradient(Parallel& parallel, const DepthwiseShape& shape, const double* dy, const double* w,
                                      double* dx) {
@@ -37,15 +37,15 @@ inline void depthwise_input_gradient(Parallel& parallel, const DepthwiseShape& s
 
 template <class T>
 void depthwise_weight_gradient_reference(Parallel&, const DepthwiseShape&, const T* x, const T* dy, T* dw);
-/// Vectorised where the multiplier is 1.
+/// Vectorised if the multiplier is 1.
 void depthwise_weight_gradient(Parallel&, const DepthwiseShape&, const float* x, const float* dy, float* dw);
 inline void depthwise_weight_gradient(Parallel& parallel, const DepthwiseShape& shape, const double* x,
                                       const double* dy, double* dw) {
   depthwise_weight_gradient_reference(parallel, shape, x, dy, dw);
 }
 
-/// dw (KH, KW, C, M) = Σ over the output rows n · OH + oh of what add_row(row, sum) adds to sum (KH, KW, C, M): partial
-/// sums over fixed runs of rows, added in order.
+/// dw (KH, KW, C, M) = the sum over all output rows n · OH + oh. add_row(row, sum) adds one row's part to sum
+/// (KH, KW, C, M). Partial sums over fixed runs of rows are added in order.
 template <class T, class AddRow>
 void sum_over_rows(Parallel& parallel, const DepthwiseShape& s, T* dw, const AddRow& add_row) {
   const Index size = s.window.kh * s.window.kw * s.window.c * s.multiplier, rows = s.window.n * s.window.oh;

@@ -1,6 +1,5 @@
-// Gradients of the depthwise convolution with multiplier 1. That of the input, where the stride is 1, is a convolution
-// of dy with the flipped weights; that of the weights is summed in registers along each output row, a run of channels
-// at a time.
+// Gradients of the depthwise convolution with multiplier 1. The input gradient at stride 1 is a convolution of dy with
+// the flipped weights. The weight gradient is summed in registers along each output row, a run of channels at a time.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/depthwise/depthwise_gradient.cpp"
 #include <algorithm>
@@ -37,7 +36,7 @@ void add_weight_gradient_of_row(const Window& win, Index row, const float* x, co
   const Index n = row / win.oh, top = row % win.oh * win.stride_h - win.top;
   for (Index kh = HWY_MAX(Index{0}, -top); kh < HWY_MIN(win.kh, win.h - top); ++kh)
     for (Index kw = 0; kw < win.kw; ++kw) {
-      // Output columns whose tap lies inside the image.
+      // The output columns [first, last) whose tap is inside the image.
       const Index before = win.left - kw, after = win.w - 1 + before;
       const Index first = before > 0 ? (before + win.stride_w - 1) / win.stride_w : 0;
       const Index last = after < 0 ? 0 : HWY_MIN(win.ow, after / win.stride_w + 1);

@@ -9,7 +9,7 @@ namespace {
 /// Channels that are compared at once.
 constexpr Index kChannels = 32;
 
-/// The part of output position p's window that lies inside the image.
+/// The part of the window of output position p that is inside the image.
 struct Inside {
   Index n, h0, h1, w0, w1;
   Index count() const { return std::max<Index>(h1 - h0, 0) * std::max<Index>(w1 - w0, 0); }
@@ -29,7 +29,8 @@ void for_pixels(const Window& win, const Inside& part, Body&& body) {
     for (Index w = part.w0; w < part.w1; ++w) body(((part.n * win.h + h) * win.w + w) * win.c);
 }
 
-/// The largest of a few channels over a window's pixels and where it lies, without a branch, so that it is vectorised.
+/// The maximum of a few channels over the pixels of a window, and its position. Without branches, so that the compiler
+/// vectorises it.
 /// The first among equals; a NaN is larger than any number.
 template <class T>
 void max_of_channels(const Window& win, const Inside& part, const T* x, Index first, Index count, T* y,

@@ -7,7 +7,7 @@
 namespace svnet::kernels {
 
 /// y (N, OH, OW, C) = largest value of each window inside the image; source[i] = offset in x that y[i] came from (the
-/// first in row order among equals; -1 for a window wholly in the border, where y is 0). NaN counts as larger than any.
+/// first in row order among equals; -1 for a window completely in the border, where y is 0). NaN counts as the largest.
 template <class T>
 void max_pool(Parallel&, const Window&, const T* x, T* y, std::int64_t* source);
 /// dx from dy and the sources.

@@ -8,7 +8,7 @@ namespace svnet::kernels {
 // Winograd's F(4×4, 3×3) (Lavin & Gray, 2015): for each pair of input and output channels, a tile of 4×4 outputs costs
 // 36 products instead of 144. C is the number of input channels, K of output channels.
 
-/// Weights of a 3×3 convolution for winograd_conv2d. Immutable once made.
+/// Weights of a 3×3 convolution for winograd_conv2d. Immutable after winograd_weights.
 struct WinogradWeights {
   Index c = 0, k = 0;
   /// If true, panels holds points [k / 16][36][c][16]. If false, it holds taps [k / 16][c][9][16], a quarter of the

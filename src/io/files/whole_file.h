@@ -1,0 +1,10 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+namespace svnet {
+
+/// All bytes of a regular file. Throws Error that names it where it cannot be read.
+std::string whole_file(const std::filesystem::path& path);
+
+}  // namespace svnet

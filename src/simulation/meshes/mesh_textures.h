@@ -1,0 +1,29 @@
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+
+#include "collection_files.h"
+#include "io/images/image_codecs.h"
+#include "mesh_draft.h"
+
+namespace svnet {
+
+/// The textures of one mesh, each read once. A texture that is missing gives none, with one warning; one that cannot be
+/// decoded, or lies outside the collection, throws Error.
+class MeshTextures {
+ public:
+  MeshTextures(const CollectionFiles& files, MeshDraft& draft) : files_(files), draft_(draft) {}
+
+  /// The index of the picture in a file, by the path that the mesh gives.
+  std::optional<int> file(const std::string& reference);
+  /// Of one that is inside the mesh file under the name `reference`.
+  int embedded(const std::string& reference, Bytes contents);
+
+ private:
+  const CollectionFiles& files_;
+  MeshDraft& draft_;
+  std::map<std::string, std::optional<int>> by_reference_, by_path_;
+};
+
+}  // namespace svnet
