@@ -216,3 +216,17 @@ TEST_CASE("svnet-views says what is wrong") {
   CHECK(run(folder, SVNET_VIEWS " camera.json --background a b --current c d").err ==
         "svnet-views: camera.json: the key 'pose' is missing, where the camera was for the pictures\n");
 }
+
+TEST_CASE("svnet-views takes a ROS camera, and CSV to standard output") {
+  const TemporaryFolder folder;
+  folder.write("plain.json", R"({"width": 640, "height": 480, "fx": 600, "fy": 600, "cx": 319.5, "cy": 239.5})");
+  folder.write("ros.yaml",
+               "width: 640\nheight: 480\nD: [0.0, 0.0, 0.0, 0.0, 0.0]\n"
+               "K: [600.0, 0.0, 319.5, 0.0, 600.0, 239.5, 0.0, 0.0, 1.0]\n");
+  const std::string object = " --centre 0 0 0.05 --diagonal 0.2";
+  const Ran plain = run(folder, SVNET_VIEWS " plain.json" + object);
+  REQUIRE(plain.status == 0);
+  CHECK(run(folder, SVNET_VIEWS " ros.yaml" + object).out == plain.out);
+  CHECK(run(folder, SVNET_VIEWS " ros.yaml" + object + " --csv /dev/stdout | cat").out == plain.out);
+  CHECK(run(folder, SVNET_VIEWS " plain.json" + object + " --depth-unit mm").status == 2);
+}
