@@ -60,6 +60,7 @@ void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
 std::unique_ptr<FileLock> lock_run_folder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
+  check(!error || !std::filesystem::exists(folder), folder.string(), ": is not a folder; give the name of one");
   check(!error, folder.string(), ": cannot make this folder: ", error.message());
   auto lock = std::make_unique<FileLock>(folder / "log.txt");
   check(lock->held(), folder.string(),

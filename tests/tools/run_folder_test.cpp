@@ -40,14 +40,17 @@ TEST_CASE("a run folder works after it was moved with its data, or without them 
 TEST_CASE("a dry run says which folder it cannot write to, and why") {
   const Workplace place;
   const std::string dry = "svnet-train config.yaml --dry-run --quiet --threads 1";
-  for (const auto& [folder, reason] : {std::pair{"/proc", "No such file or directory"},
-                                       {"config.yaml", "Not a directory"},
-                                       {"none", "No such file or directory"}}) {
-    const Ran ran = place.run("TMPDIR=" + std::string(folder) + " " + dry);
+  const std::string no_folder = "is no folder for temporary files; set TMPDIR to one";
+  for (const auto& [folder, problem] :
+       {std::pair<std::string, std::string>{"/proc",
+                                            "no temporary folder can be made in it: No such file or directory; set "
+                                            "TMPDIR to a folder that can be written"},
+        {"config.yaml", no_folder},
+        {"none", no_folder}}) {
+    const Ran ran = place.run("TMPDIR=" + folder + " " + dry);
     INFO(ran.err);
     CHECK(ran.status == 1);
-    CHECK_THAT(ran.err, Contains(std::string(folder) + ": no temporary folder can be made in it: " + reason +
-                                 "; set TMPDIR to a folder that can be written"));
+    CHECK_THAT(ran.err, Contains(folder + ": " + problem));
   }
   // TMPDIR is used: the folder's time of change says so.
   place.output_of("mkdir scratch && touch -d 2001-01-01 scratch && TMPDIR=scratch " + dry +

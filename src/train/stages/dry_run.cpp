@@ -52,7 +52,11 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
 
 std::filesystem::path temporary_folder() {
   const std::string chosen = environment_variable("TMPDIR");
-  return chosen.empty() ? "/tmp" : chosen;
+  const std::filesystem::path folder = chosen.empty() ? "/tmp" : chosen;
+  std::error_code error;
+  check(std::filesystem::is_directory(folder, error), folder.string(),
+        ": is no folder for temporary files; set TMPDIR to one");
+  return folder;
 }
 
 /// A folder of its own under the system's folder for temporary files, which the destructor removes.
