@@ -9,7 +9,7 @@
 namespace svnet {
 namespace {
 
-using nlohmann::json;
+using json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 constexpr const char* kRectify =

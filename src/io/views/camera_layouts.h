@@ -16,12 +16,12 @@ namespace svnet {
 ///   ROS, file          image_width, image_height, camera_matrix, distortion_coefficients and so on, as
 ///                      camera_calibration_parsers writes them
 /// Lenses must have no distortion: all coefficients are 0.
-Intrinsics intrinsics_of(const nlohmann::json& document, const std::string& name);
+Intrinsics intrinsics_of(const nlohmann::ordered_json& document, const std::string& name);
 
 /// Throws Error unless `object` is a mapping with these keys only.
-void check_keys(const nlohmann::json& object, const std::string& name, const std::vector<std::string>& known);
+void check_keys(const nlohmann::ordered_json& object, const std::string& name, const std::vector<std::string>& known);
 
 /// The number at `key`.
-double number_at(const nlohmann::json& object, const std::string& name, const std::string& key);
+double number_at(const nlohmann::ordered_json& object, const std::string& name, const std::string& key);
 
 }  // namespace svnet
