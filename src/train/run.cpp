@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
+#include "io/files/make_folder.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/dataset_notes.h"
 #include "models/registry.h"
@@ -68,9 +69,7 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
           .messages = messages,
           .communicator = communicator,
           .inference = inference};
-  std::error_code error;
-  fs::create_directories(run.folder, error);
-  check(!error, run.folder.string(), ": cannot make this folder: ", error.message());
+  make_folder(run.folder);
   if (run.communicator.is_root())
     for (const std::string& note : dataset_notes(run.dataset, Parallel::shared())) run.say(note);
   run.dataset_fingerprint = fingerprint(run.dataset, Parallel::shared());

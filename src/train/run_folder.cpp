@@ -5,6 +5,7 @@
 #include <string>
 
 #include "base/error.h"
+#include "io/files/make_folder.h"
 #include "io/views/dataset_folder.h"
 #include "train/config/config_file.h"
 
@@ -58,10 +59,7 @@ void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
 }
 
 std::unique_ptr<FileLock> lock_run_folder(const fs::path& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  check(!error || !std::filesystem::exists(folder), folder.string(), ": is not a folder; give the name of one");
-  check(!error, folder.string(), ": cannot make this folder: ", error.message());
+  make_folder(folder);
   auto lock = std::make_unique<FileLock>(folder / "log.txt");
   check(lock->held(), folder.string(),
         ": another svnet-train is at work in this run folder; wait until it ends, or give another folder by --output");

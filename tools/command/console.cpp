@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "command/interrupt.h"
+#include "io/files/make_folder.h"
 
 namespace svnet {
 namespace {
@@ -58,11 +59,7 @@ void Console::error(std::string_view text) {
 void Console::log_to(const std::filesystem::path& file) {
   if (verbosity_ == Verbosity::errors_only) return;
   const std::filesystem::path folder = file.parent_path();
-  std::error_code error;
-  if (!folder.empty()) std::filesystem::create_directories(folder, error);
-  check(!error, folder.string(),
-        std::filesystem::exists(folder) ? ": is not a folder; give the name of one"
-                                        : joined(": cannot make this folder: ", error.message()));
+  if (!folder.empty()) make_folder(folder);
   log_file_.emplace(file);
 }
 
