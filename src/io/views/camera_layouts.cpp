@@ -120,26 +120,26 @@ Intrinsics ros_camera(const json& document, const std::string& name) {
   return camera;
 }
 
+/// The pinhole camera whose principal point is under these keys.
+Intrinsics pinhole_at(const json& document, const std::string& name, const char* cx, const char* cy) {
+  return {.width = pixels_at(document, name, "width"),
+          .height = pixels_at(document, name, "height"),
+          .fx = number_at(document, name, "fx"),
+          .fy = number_at(document, name, "fy"),
+          .cx = number_at(document, name, cx),
+          .cy = number_at(document, name, cy)};
+}
+
 Intrinsics realsense_camera(const json& document, const std::string& name) {
   check_keys(document, name,
              {"width", "height", "fx", "fy", "ppx", "ppy", "model", "coeffs", "fov", "stream", "format", "pose"});
   check_undistorted(document, name, "coeffs");
-  return {.width = pixels_at(document, name, "width"),
-          .height = pixels_at(document, name, "height"),
-          .fx = number_at(document, name, "fx"),
-          .fy = number_at(document, name, "fy"),
-          .cx = number_at(document, name, "ppx"),
-          .cy = number_at(document, name, "ppy")};
+  return pinhole_at(document, name, "ppx", "ppy");
 }
 
 Intrinsics plain_camera(const json& document, const std::string& name) {
   check_keys(document, name, {"width", "height", "fx", "fy", "cx", "cy", "pose"});
-  return {.width = pixels_at(document, name, "width"),
-          .height = pixels_at(document, name, "height"),
-          .fx = number_at(document, name, "fx"),
-          .fy = number_at(document, name, "fy"),
-          .cx = number_at(document, name, "cx"),
-          .cy = number_at(document, name, "cy")};
+  return pinhole_at(document, name, "cx", "cy");
 }
 
 }  // namespace
