@@ -8,6 +8,8 @@
 #include "models/backbone.h"
 
 namespace svnet {
+using models::Backbone;
+
 namespace {
 
 struct Work {
@@ -18,7 +20,7 @@ struct Work {
 const Backbone& network_named(const std::string& name) {
   static std::unique_ptr<const Backbone> last;
   if (!last || last->kind().name != name)
-    last = std::make_unique<const Backbone>(random_backbone(name, "", 1, inference_options_from_environment()));
+    last = std::make_unique<const Backbone>(models::random_backbone(name, "", 1, inference_options_from_environment()));
   return *last;
 }
 
@@ -46,7 +48,7 @@ void backbone(benchmark::State& state, const std::string& name) {
 }
 
 const bool kRegistered = [] {
-  for (const auto& kind : backbone_kinds())
+  for (const auto& kind : models::backbone_kinds())
     benchmark::RegisterBenchmark(("backbone/" + kind.name).c_str(), backbone, kind.name)
         ->ArgName("batch")
         ->Arg(1)

@@ -5,6 +5,8 @@
 #include "train/evaluation.h"
 
 namespace svnet {
+using semantics::DistanceMatrix;
+
 namespace {
 
 ViewDataset paper_dataset() {
@@ -33,7 +35,8 @@ DistanceMatrix random_distances(const ViewDataset& dataset, std::uint64_t seed) 
     for (Index d = 0; d < kDimension; ++d)
       features.push_back(static_cast<float>(centre.normal() + 1.5 * noise.normal()));
   }
-  return squared_distances(features.data(), static_cast<Index>(dataset.views.size()), kDimension, Parallel::shared());
+  return semantics::squared_distances(features.data(), static_cast<Index>(dataset.views.size()), kDimension,
+                                      Parallel::shared());
 }
 
 void evaluation(benchmark::State& state) {
@@ -47,14 +50,15 @@ void evaluation(benchmark::State& state) {
     scores.push_back(static_cast<double>(scores.size() % 17) / 17);
   }
   const DistanceMatrix first = random_distances(dataset, 1), second = random_distances(dataset, 2);
-  const ClusteringProblems problems(category, object, pose);
-  const ClusteringOptions ward{.dimension = 2048}, kmeans{.method = Clustering::kmeans, .dimension = 2048};
-  const EvaluationOptions options{.problems = static_cast<std::uint64_t>(state.range(0))};
+  const semantics::ClusteringProblems problems(category, object, pose);
+  const semantics::ClusteringOptions ward{.dimension = 2048},
+      kmeans{.method = semantics::Clustering::kmeans, .dimension = 2048};
+  const train::EvaluationOptions options{.problems = static_cast<std::uint64_t>(state.range(0))};
   for (auto _ : state)
     benchmark::DoNotOptimize(
         evaluate(dataset, problems, {{"a_ward", &first, ward}, {"a_kmeans", &first, kmeans}, {"b_ward", &second, ward}},
-                 {{"top", top_views(dataset)}, {"rand", {}}, {"opt_ind", best_views(dataset, scores)}}, options,
-                 Parallel::shared(), {}, "")
+                 {{"top", train::top_views(dataset)}, {"rand", {}}, {"opt_ind", train::best_views(dataset, scores)}},
+                 options, Parallel::shared(), {}, "")
             .problems);
 }
 BENCHMARK(evaluation)->Arg(10000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);

@@ -12,13 +12,13 @@ namespace svnet {
 namespace {
 
 void finetune(benchmark::State& state) {
-  const Graph graph = backbone_kind("vgg19").graph(224, false);
+  const Graph graph = models::backbone_kind("vgg19").graph(224, false);
   Parameters parameters = initial_parameters(graph, 1);
   const auto optimizer = sgd(trainable(graph, parameters));
   const Tensor images = initialised(Initializer::lecun_normal, {state.range(0), 224, 224, 3}, 1, 1000);
   const Tensor targets = Tensor::zeros({state.range(0), 7, 7, 512});
   const auto step = [&] {
-    const Tensor features = train(graph, parameters, {images}, {graph.output()}, {})[0];
+    const Tensor features = run_training(graph, parameters, {images}, {graph.output()}, {})[0];
     autograd::GradientMap gradients;
     autograd::backward(ops::mean_squared_error(features, targets), gradients);
     optimizer->step(gradients, 1e-6);

@@ -12,7 +12,7 @@ namespace svnet {
 namespace {
 
 void head_step(benchmark::State& state) {
-  const Graph graph = sv_net({});
+  const Graph graph = models::sv_net({});
   Parameters parameters = initial_parameters(graph, 1);
   const auto optimizer = adam(trainable(graph, parameters));
   const Tensor features = initialised(Initializer::lecun_normal, {state.range(0), 25088}, 1, 1000);
@@ -20,7 +20,7 @@ void head_step(benchmark::State& state) {
   const Tensor targets = Tensor::full({state.range(0), 1}, 0.5);
   const auto step = [&] {
     const TrainingContext context{.seed = 1, .step = static_cast<std::uint64_t>(optimizer->steps)};
-    const Tensor score = train(graph, parameters, {features, angles}, {graph.output()}, context)[0];
+    const Tensor score = run_training(graph, parameters, {features, angles}, {graph.output()}, context)[0];
     autograd::GradientMap gradients(autograd::GradientMap::Products::keep);
     autograd::backward(ops::mean_squared_error(score, targets), gradients);
     optimizer->step(gradients, 1e-3);

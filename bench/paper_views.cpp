@@ -32,12 +32,12 @@ void write_data(const std::filesystem::path& root, int views) {
 
 void write_paper_views(const std::filesystem::path& folder, int views) {
   write_data(folder / "data", views);
-  const ViewDataset dataset = read_view_dataset(folder / "data");
+  const ViewDataset dataset = io::read_view_dataset(folder / "data");
   Features features{{.backbone = "random",
                      .output = "random",
                      .preprocessing = "none",
                      .weights_sha256 = "random, seed 1",
-                     .dataset_fingerprint = fingerprint(dataset, Parallel::shared()),
+                     .dataset_fingerprint = io::fingerprint(dataset, Parallel::shared()),
                      .input_fingerprint = "svnet_paper_views 1"},
                     static_cast<Index>(dataset.views.size()),
                     kDimension,
@@ -57,7 +57,7 @@ void write_paper_views(const std::filesystem::path& folder, int views) {
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
-  write_features(folder / "features.h5", features);
+  io::write_features(folder / "features.h5", features);
 }
 
 }  // namespace

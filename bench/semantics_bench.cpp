@@ -5,6 +5,9 @@
 #include "semantics/problem_solver.h"
 
 namespace svnet {
+using semantics::Clustering;
+using semantics::ClusteringOptions;
+
 namespace {
 
 struct Paper {
@@ -36,12 +39,12 @@ const Paper& paper() {
 }
 
 void problem(benchmark::State& state, const ClusteringOptions& clustering) {
-  static const DistanceMatrix distances =
-      squared_distances(paper().features.data(), paper().views(), Paper::kFeatures, Parallel::shared());
-  const ClusteringProblems problems(paper().category, paper().object, paper().pose);
+  static const semantics::DistanceMatrix distances =
+      semantics::squared_distances(paper().features.data(), paper().views(), Paper::kFeatures, Parallel::shared());
+  const semantics::ClusteringProblems problems(paper().category, paper().object, paper().pose);
   Parallel one(1);
-  ProblemSolver solver(distances, problems, {.clustering = clustering}, one);
-  ScoreSums sums(problems.views());
+  semantics::ProblemSolver solver(distances, problems, {.clustering = clustering}, one);
+  semantics::ScoreSums sums(problems.views());
   const auto batch = static_cast<std::uint64_t>(state.range(0));
   solver.solve(0, batch, sums);  // first use of the memory
   std::uint64_t first = batch;
@@ -59,7 +62,7 @@ void distance_matrix(benchmark::State& state) {
   RandomStream random(1, Stream::shuffle);
   for (auto& value : values) value = static_cast<float>(random.uniform());
   for (auto _ : state)
-    benchmark::DoNotOptimize(squared_distances(values.data(), views, features, Parallel::shared()).row(0));
+    benchmark::DoNotOptimize(semantics::squared_distances(values.data(), views, features, Parallel::shared()).row(0));
 }
 
 const bool kRegistered = [] {

@@ -9,6 +9,8 @@
 #include "base/error.h"
 
 namespace svnet::python {
+using view::CameraPose;
+
 namespace {
 
 namespace py = pybind11;
@@ -124,9 +126,10 @@ GivenFeatures::GivenFeatures(const char* function, const py::object& given) {
     values_ = Array<double>(array);
 }
 
-DistanceMatrix GivenFeatures::squared_distances(Parallel& parallel) const {
+semantics::DistanceMatrix GivenFeatures::squared_distances(Parallel& parallel) const {
   return std::visit(
-      [&](const auto& values) { return svnet::squared_distances(values.data(), rows_, columns_, parallel); }, values_);
+      [&](const auto& values) { return semantics::squared_distances(values.data(), rows_, columns_, parallel); },
+      values_);
 }
 
 GivenLabels::GivenLabels(const char* function, const char* argument, const py::object& given) {

@@ -32,7 +32,7 @@ class GivenFeatures {
   Index rows() const { return rows_; }
   Index columns() const { return columns_; }
   /// Does not require the GIL.
-  DistanceMatrix squared_distances(Parallel& parallel) const;
+  semantics::DistanceMatrix squared_distances(Parallel& parallel) const;
 
  private:
   std::variant<Array<float>, Array<double>> values_;
@@ -58,7 +58,7 @@ Image image(const char* function, const pybind11::object& given);
 
 /// Camera poses, from any array-like (M, 2) of integers or floats: theta and phi in degrees, all in range; M >= 1. The
 /// message says the index of a wrong pose.
-std::vector<CameraPose> camera_poses(const char* function, const pybind11::object& given);
+std::vector<view::CameraPose> camera_poses(const char* function, const pybind11::object& given);
 
 /// A Python or NumPy integer or float.
 double number(const char* function, const char* argument, const pybind11::object& given);

@@ -13,6 +13,9 @@
 #include "io/models/backbone_file.h"
 
 namespace svnet::python {
+using models::Backbone;
+using models::Preprocessing;
+
 namespace {
 
 namespace py = pybind11;
@@ -79,12 +82,13 @@ std::unique_ptr<LoadedBackbone> load(const py::object& given_name, const py::obj
   const InferenceOptions options = inference_options_from_environment();
   if (given_weights.is_none()) {
     const Computing computing;
-    if (auto built_in = built_in_backbone(name, output, options)) return new_backbone(std::move(built_in->backbone), {});
-    return new_backbone(random_backbone(name, output, seed, options), {});
+    if (auto built_in = io::built_in_backbone(name, output, options))
+      return new_backbone(std::move(built_in->backbone), {});
+    return new_backbone(models::random_backbone(name, output, seed, options), {});
   }
   const std::string weights = path("Backbone", "weights", given_weights);
   const Computing computing;
-  KerasLoadReport report;
+  io::KerasLoadReport report;
   Backbone backbone = read_backbone(name, weights, output, &report, options);
   return new_backbone(std::move(backbone), std::move(report.unused));
 }
@@ -126,7 +130,7 @@ py::tuple input_shape(const LoadedBackbone& self) {
 /// The docstring with the names of all networks.
 std::string class_doc() {
   std::vector<std::string> names;
-  for (const auto& kind : backbone_kinds()) names.push_back(kind.name);
+  for (const auto& kind : models::backbone_kinds()) names.push_back(kind.name);
   std::string doc = kClassDoc;
   const std::string placeholder = "{names}";
   return doc.replace(doc.find(placeholder), placeholder.size(), joined_with(", ", names));

@@ -4,6 +4,8 @@
 #include "view/camera.h"
 
 namespace svnet::python {
+using view::CameraFrame;
+
 namespace {
 
 namespace py = pybind11;
@@ -24,11 +26,12 @@ Raises svnet.Error if an angle is out of range, a length is not finite, radius i
 py::array_t<double> pose_matrix(const py::object& theta_deg, const py::object& phi_deg, const py::object& radius,
                                 const py::object& centre, const py::object& frame) {
   constexpr const char* kFunction = "camera_pose";
-  const CameraPose pose{number(kFunction, "theta_deg", theta_deg), number(kFunction, "phi_deg", phi_deg)};
+  const view::CameraPose pose{number(kFunction, "theta_deg", theta_deg), number(kFunction, "phi_deg", phi_deg)};
   const double radius_m = number(kFunction, "radius", radius);
   const auto [x, y, z] = point(kFunction, "centre", centre);
-  const CameraFrame axes = camera_frame_named(text(kFunction, "frame", frame, quoted_names<CameraFrame>().c_str()));
-  const Eigen::Matrix4d matrix = svnet::look_at(pose, radius_m, {x, y, z}, axes).matrix();
+  const CameraFrame axes =
+      view::camera_frame_named(text(kFunction, "frame", frame, quoted_names<CameraFrame>().c_str()));
+  const Eigen::Matrix4d matrix = view::look_at(pose, radius_m, {x, y, z}, axes).matrix();
   py::array_t<double> result({4, 4});
   for (Eigen::Index row = 0; row < 4; ++row)
     for (Eigen::Index column = 0; column < 4; ++column) result.mutable_at(row, column) = matrix(row, column);

@@ -7,6 +7,8 @@
 #include "computing.h"
 
 namespace svnet::python {
+using semantics::NmiAverage;
+
 namespace {
 
 namespace py = pybind11;
@@ -75,20 +77,20 @@ Raises svnet.Error if lengths or types do not fit, or there is no item.
 }  // namespace
 
 void bind_cluster_metrics(py::module_& module) {
-  const auto define = [&](const char* name, double (*metric)(svnet::Labels, svnet::Labels), const char* doc) {
+  const auto define = [&](const char* name, double (*metric)(semantics::Labels, semantics::Labels), const char* doc) {
     module.def(
         name,
         [name, metric](const py::object& truth, const py::object& pred) { return measured(name, truth, pred, metric); },
         doc, py::arg("true"), py::arg("pred"));
   };
-  define("fowlkes_mallows", svnet::fowlkes_mallows, kFowlkesMallowsDoc);
-  define("purity", svnet::purity, kPurityDoc);
-  define("adjusted_rand", svnet::adjusted_rand, kAdjustedRandDoc);
+  define("fowlkes_mallows", semantics::fowlkes_mallows, kFowlkesMallowsDoc);
+  define("purity", semantics::purity, kPurityDoc);
+  define("adjusted_rand", semantics::adjusted_rand, kAdjustedRandDoc);
   module.def(
       "fowlkes_mallows_individual",
       [](const py::object& truth, const py::object& pred) {
         const auto values = measured("fowlkes_mallows_individual", truth, pred,
-                                     [](auto t, auto p) { return svnet::fowlkes_mallows_individual(t, p); });
+                                     [](auto t, auto p) { return semantics::fowlkes_mallows_individual(t, p); });
         return array_of(std::span(values));
       },
       kIndividualDoc, py::arg("true"), py::arg("pred"));
@@ -96,7 +98,7 @@ void bind_cluster_metrics(py::module_& module) {
       "normalized_mutual_info",
       [](const py::object& truth, const py::object& pred, const py::object& average) {
         return measured("normalized_mutual_info", truth, pred, [mean = average_named(average)](auto t, auto p) {
-          return svnet::normalized_mutual_info(t, p, mean);
+          return semantics::normalized_mutual_info(t, p, mean);
         });
       },
       kMutualDoc, py::arg("true"), py::arg("pred"), py::arg("average") = "arithmetic");

@@ -7,6 +7,8 @@
 #include "semantics/clusterer.h"
 
 namespace svnet::python {
+using semantics::Linkage;
+
 namespace {
 
 namespace py = pybind11;
@@ -68,7 +70,7 @@ py::array_t<std::int64_t> agglomerated(const char* function, const py::object& g
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
     let_python_interrupt();
-    Agglomerative(linkage, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
+    semantics::Agglomerative(linkage, features.rows()).cluster(distances, all_rows(features.rows()), k, labels);
   }
   return label_array(labels);
 }
@@ -81,7 +83,7 @@ py::array_t<std::int64_t> agglomerative(const py::object& features, const py::ob
                                         const py::object& linkage) {
   constexpr const char* kFunction = "agglomerative";
   const std::string name = text(kFunction, "linkage", linkage, quoted_names<Linkage>().c_str());
-  return agglomerated(kFunction, features, n_clusters, linkage_named(name));
+  return agglomerated(kFunction, features, n_clusters, semantics::linkage_named(name));
 }
 
 constexpr const char* kKMeansDoc = R"(kmeans(features, n_clusters, n_init=10, seed=0)
@@ -112,7 +114,8 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
                  const py::object& given_seed) {
   const GivenFeatures features("kmeans", given);
   const Index n = features.rows(), k = count_of("kmeans", "n_clusters", n_clusters);
-  const KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init), .after_iteration = let_python_interrupt};
+  const semantics::KMeansOptions options{.n_init = count_of("kmeans", "n_init", n_init),
+                                         .after_iteration = let_python_interrupt};
   const std::uint64_t seed = whole_number("kmeans", "seed", given_seed);
   // Checked before memory for k clusters is allocated.
   check(k <= n, "[kmeans] cannot make ", k, " clusters of ", n, " points; 1 to ", n, " are possible");
@@ -122,7 +125,7 @@ py::tuple kmeans(const py::object& given, const py::object& n_clusters, const py
     const Computing computing;
     const auto distances = features.squared_distances(Parallel::shared());
     let_python_interrupt();
-    inertia = KMeans(n, k, features.columns(), options)
+    inertia = semantics::KMeans(n, k, features.columns(), options)
                   .cluster(distances, all_rows(n), k, RandomStream(seed, Stream::kmeans), labels);
   }
   return py::make_tuple(label_array(labels), inertia);

@@ -10,6 +10,8 @@
 #include "predict/predictor.h"
 
 namespace svnet::python {
+using predict::Predictor;
+
 namespace {
 
 namespace py = pybind11;
@@ -70,7 +72,7 @@ Raises svnet.Error as score does.
 std::vector<float> scores(const Predictor& self, const char* function, const py::object& given_image,
                           const py::object& given_angles) {
   const Image top = image(function, given_image);
-  const std::vector<CameraPose> poses = camera_poses(function, given_angles);
+  const std::vector<view::CameraPose> poses = camera_poses(function, given_angles);
   const Computing computing;
   const Tensor features = self.embed(top);
   std::vector<float> result;
@@ -90,7 +92,7 @@ struct LoadedModel {
 };
 
 std::unique_ptr<LoadedModel> model_of(const std::string& name, std::string contents) {
-  const Model model = parse_model(name, std::as_bytes(std::span(contents)));
+  const Model model = io::parse_model(name, std::as_bytes(std::span(contents)));
   return std::unique_ptr<LoadedModel>(
       new LoadedModel{std::move(contents), Predictor(model, inference_options_from_environment())});
 }
@@ -99,10 +101,10 @@ std::unique_ptr<LoadedModel> load(const py::object& given) {
   const std::string file = path("Model.load", "path", given);
   const Computing computing;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(file, error)) static_cast<void>(read_model(file));  // throws what is wrong
+  if (!std::filesystem::is_regular_file(file, error)) static_cast<void>(io::read_model(file));  // throws what is wrong
   std::ifstream stream(file, std::ios::binary);
   std::string contents{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) static_cast<void>(read_model(file));
+  if (!stream) static_cast<void>(io::read_model(file));
   return model_of(file, std::move(contents));
 }
 
@@ -125,7 +127,7 @@ py::array_t<float> score(const LoadedModel& self, const py::object& image, const
 
 py::tuple best_view_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg) {
   const std::vector<float> values = scores(self.predictor, "Model.best_view", image, angles_deg);
-  return py::make_tuple(best_view(values), array_of(std::span<const float>(values)));
+  return py::make_tuple(predict::best_view(values), array_of(std::span<const float>(values)));
 }
 
 /// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a model, and methods would

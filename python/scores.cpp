@@ -8,6 +8,10 @@
 #include "semantics/semantic_scores.h"
 
 namespace svnet::python {
+using semantics::ScoreOptions;
+using semantics::ScoreSums;
+using semantics::Singletons;
+
 namespace {
 
 namespace py = pybind11;
@@ -69,13 +73,13 @@ py::dict semantic_scores(const py::object& given_features, const py::object& giv
   const GivenLabels category(function, "category", given_category), object(function, "object", given_object),
       pose(function, "pose", given_pose);
   const ScoreOptions options = options_from(problem_count, min_samples, seed, singletons);
-  SemanticScores scores;
+  semantics::SemanticScores scores;
   {
     const Computing computing;
     const std::set<std::int64_t> categories(category.values().begin(), category.values().end());
     check(categories.size() >= 3, "[semantic_scores] there are ", categories.size(),
           " categories, at least 3 are needed");
-    const ClusteringProblems problems(category.values(), object.values(), pose.values());
+    const semantics::ClusteringProblems problems(category.values(), object.values(), pose.values());
     check(problems.views() == features.rows(), "[semantic_scores] ", features.rows(), " rows of features, but ",
           problems.views(), " categories, objects and poses");
     const auto distances = features.squared_distances(Parallel::shared());

@@ -3,8 +3,9 @@
 #include "models/backbone.h"
 
 /// A model with random weights that runs within milliseconds: tiny_xception with a head of width 16.
-inline svnet::Model small_model(svnet::AngleEncoding angles = svnet::AngleEncoding::radians) {
+inline svnet::Model small_model(svnet::models::AngleEncoding angles = svnet::models::AngleEncoding::radians) {
   using namespace svnet;
+  using namespace svnet::models;
   const Backbone backbone = random_backbone("tiny_xception", "", 2);
   Model model{.backbone = "tiny_xception",
               .backbone_output = backbone.output_name(),

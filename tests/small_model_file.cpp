@@ -3,6 +3,6 @@
 
 int main(int argc, char** argv) {
   if (argc != 2) return 2;
-  svnet::write_model(argv[1], small_model());
+  svnet::io::write_model(argv[1], small_model());
   return 0;
 }

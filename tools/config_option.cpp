@@ -3,9 +3,11 @@
 #include "train/config/config_table.h"
 
 namespace svnet {
+using namespace command;
+using train::YamlValue;
 
-Argument add_config_option(Command& command, Config& config, const std::string& option, const std::string& key) {
-  const BoundKey bound = bound_key(config, key);
+Argument add_config_option(Command& command, train::Config& config, const std::string& option, const std::string& key) {
+  const train::BoundKey bound = bound_key(config, key);
   const auto set = [option, read = bound.read](const std::string& text) {
     YamlValue value;
     value.kind = YamlValue::Kind::scalar;

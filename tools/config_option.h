@@ -8,6 +8,7 @@ namespace svnet {
 
 /// Adds an option that sets a key of the configuration, with the help, the range and the names that the key has in a
 /// configuration file. `config` must outlive the parsing; what it holds now is the default that --help shows.
-Argument add_config_option(Command& command, Config& config, const std::string& option, const std::string& key);
+command::Argument add_config_option(command::Command& command, train::Config& config, const std::string& option,
+                                    const std::string& key);
 
 }  // namespace svnet

@@ -24,13 +24,13 @@ std::vector<fs::path> files_of_run(const fs::path& folder, const fs::path& confi
 
 std::vector<std::string> selector_names() {
   std::vector<std::string> names;
-  for (const svnet::SelectorKind& kind : svnet::selector_kinds()) names.emplace_back(kind.name);
+  for (const svnet::train::SelectorKind& kind : svnet::train::selector_kinds()) names.emplace_back(kind.name);
   return names;
 }
 
 std::string selectors_help() {
   std::string help = "Selectors of the tables, separated by commas (default: evaluation.selectors)";
-  for (const svnet::SelectorKind& kind : svnet::selector_kinds())
+  for (const svnet::train::SelectorKind& kind : svnet::train::selector_kinds())
     help += std::string("; ") + kind.name + ": " + kind.help;
   return help;
 }
@@ -39,6 +39,8 @@ std::string selectors_help() {
 
 int main(int argc, char** argv) {
   using namespace svnet;
+  using namespace svnet::command;
+  using svnet::train::Config;
   Command command(
       "svnet-eval",
       "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
@@ -67,22 +69,22 @@ int main(int argc, char** argv) {
             ": is no run folder, it has no config.yaml; svnet-train --output makes one");
     // A run's paths are relative to the folder itself, not to a link to it.
     const fs::path config_file = folder_given ? fs::canonical(source) / "config.yaml" : source;
-    Config config = read_config(config_file, overrides);
+    Config config = train::read_config(config_file, overrides);
     check(fs::exists(config.dataset.root), config.dataset.root.string(),
           ": no such folder; if the data set was moved, say where it is by --set dataset.root=DIR");
     if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
-    ViewDataset dataset = read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
+    ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
-    if (!json.empty()) check_can_be_written(json, files_of_run(folder, config_file));
+    if (!json.empty()) io::check_can_be_written(json, files_of_run(folder, config_file));
     console.log_to(folder / "log.txt");
-    const Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
-                             inference_options_from_environment());
-    FeaturesStage features(run);
+    const train::Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
+                                    inference_options_from_environment());
+    train::FeaturesStage features(run);
     const Model model = trained_model(run, features);
     const std::vector<double> predicted = predicted_scores(run, features, model);
     const Scores scores = scores_stage(run, features);
-    const EvaluationInputs inputs{features, scores, predicted};
+    const train::EvaluationInputs inputs{features, scores, predicted};
     const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
     const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     if (const auto held_out = tables.find("held_out"); held_out != tables.end())

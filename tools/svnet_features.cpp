@@ -10,13 +10,17 @@
 #include "train/feature_extraction.h"
 
 namespace svnet {
+using namespace command;
+using io::KerasLoadReport;
+using train::BackboneWithOrigin;
+
 namespace {
 
 BackboneWithOrigin source_of(const std::string& backbone, const std::string& layer,
                              const std::filesystem::path& weights, KerasLoadReport& report,
                              const InferenceOptions& options) {
-  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report, options), file_sha256(weights)};
-  auto built_in = built_in_backbone(backbone, layer, options);
+  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report, options), io::file_sha256(weights)};
+  auto built_in = io::built_in_backbone(backbone, layer, options);
   check(built_in.has_value(), "no weights of ", backbone, " are built in; give a file by --weights");
   return {std::move(built_in->backbone), built_in->sha256};
 }
@@ -44,7 +48,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       "mpirun -n 8 svnet-features --threads 1 --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos "
       "--output features.h5");
   std::vector<std::string> names;
-  for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
+  for (const models::BackboneKind& kind : models::backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer, exif{name_of(ExifOrientation::ignore)};
   std::filesystem::path weights, images, output;
   command.add("--backbone", backbone, "The network: " + joined_with(", ", names)).required().value_name("NAME");
@@ -62,20 +66,21 @@ int run(int argc, char** argv, Communicator& communicator) {
   return command.run(
       argc, argv,
       [&](Console& console) {
-        if (communicator.is_root()) check_can_be_written(output, {weights});
+        if (communicator.is_root()) io::check_can_be_written(output, {weights});
         KerasLoadReport report;
         const BackboneWithOrigin source =
             source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
           console.line(
               joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));
-        const ViewDataset dataset = read_view_dataset(images, *find_enum<ExifOrientation>(exif));
+        const ViewDataset dataset = io::read_view_dataset(images, *find_enum<ExifOrientation>(exif));
         if (communicator.is_root())
-          for (const std::string& note : dataset_notes(dataset, Parallel::shared())) console.line(note);
-        if (communicator.is_root()) check_can_be_written(output, pictures_of(dataset));
-        const FeaturesOrigin origin = features_origin(source, fingerprint(dataset, Parallel::shared()));
-        const Features features = extract_features(source.backbone, dataset, origin, console.messages(), communicator);
-        if (communicator.is_root()) write_features(output, features);
+          for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
+        if (communicator.is_root()) io::check_can_be_written(output, pictures_of(dataset));
+        const FeaturesOrigin origin = features_origin(source, io::fingerprint(dataset, Parallel::shared()));
+        const Features features =
+            train::extract_features(source.backbone, dataset, origin, console.messages(), communicator);
+        if (communicator.is_root()) io::write_features(output, features);
         console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
       },
       communicator);

@@ -10,6 +10,8 @@
 #include "info/plan_text.h"
 
 namespace svnet {
+using namespace command;
+
 namespace {
 
 std::string machine_text() {

@@ -14,11 +14,13 @@
 namespace {
 
 using namespace svnet;
+using namespace svnet::command;
+using svnet::view::CameraPose;
 
 std::string table_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
   std::ostringstream text;
   text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
-  for (const std::size_t i : best_first(scores))
+  for (const std::size_t i : predict::best_first(scores))
     text << '\n'
          << std::setw(10) << poses[i].theta_deg << std::setw(10) << poses[i].phi_deg << std::setw(12) << std::fixed
          << std::setprecision(6) << scores[i] << std::defaultfloat;
@@ -27,14 +29,14 @@ std::string table_text(const std::vector<CameraPose>& poses, const std::vector<f
 
 std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
   nlohmann::ordered_json views = nlohmann::ordered_json::array();
-  for (const std::size_t i : best_first(scores))
+  for (const std::size_t i : predict::best_first(scores))
     views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});
   return nlohmann::ordered_json{{"best", views.front()}, {"views", views}}.dump(2);
 }
 
 /// The picture as it is stored, with a warning if viewers show it turned, or turned as they do.
 Image top_image(const std::filesystem::path& path, const std::string& exif, Console& console) {
-  Picture picture = read_picture(path);
+  io::Picture picture = io::read_picture(path);
   if (exif == name_of(ExifOrientation::obey)) return oriented(std::move(picture.image), picture.exif_orientation);
   if (picture.exif_orientation != 1)
     console.line(joined(path.string(), ": the EXIF orientation ", picture.exif_orientation,
@@ -75,11 +77,11 @@ int main(int argc, char** argv) {
            "no scores are printed")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
-    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file}, Streams::allowed);
-    const std::vector<CameraPose> poses = poses_file.empty() ? paper_grid() : read_pose_list(poses_file);
-    const Predictor predictor(model, inference_options_from_environment());
+    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file}, io::Streams::allowed);
+    const std::vector<CameraPose> poses = poses_file.empty() ? view::paper_grid() : io::read_pose_list(poses_file);
+    const predict::Predictor predictor(model, inference_options_from_environment());
     const std::vector<float> scores = predictor.scores(predictor.embed(top_image(image, exif, console)), poses);
-    if (!plot.empty()) write_png(plot, half_sphere_plot(poses, scores));
-    if (!is_standard_output(plot)) console.result(json ? json_text(poses, scores) : table_text(poses, scores));
+    if (!plot.empty()) io::write_png(plot, predict::half_sphere_plot(poses, scores));
+    if (!io::is_standard_output(plot)) console.result(json ? json_text(poses, scores) : table_text(poses, scores));
   });
 }

@@ -12,6 +12,9 @@
 namespace {
 
 using namespace svnet;
+using namespace svnet::command;
+using svnet::train::Pretrained;
+using svnet::train::PretrainingOptions;
 
 /// "99.5 % of 2400 pictures of 24 objects that were not trained on"
 std::string accuracy_text(const Pretrained& result) {
@@ -37,7 +40,7 @@ int main(int argc, char** argv) {
   std::filesystem::path images, output;
   PretrainingOptions options;
   std::vector<std::string> names;
-  for (const BackboneKind& kind : backbone_kinds()) names.push_back(kind.name);
+  for (const models::BackboneKind& kind : models::backbone_kinds()) names.push_back(kind.name);
   command.add("--images", images, "The dataset's folder").required().value_name("DIR");
   command.add("--output", output, "The file to write, *.safetensors").required().value_name("FILE");
   command.add("--backbone", options.backbone, "The network: " + joined_with(", ", names) + " (tiny_xception)")
@@ -64,12 +67,12 @@ int main(int argc, char** argv) {
       .shows_default();
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
-    check_can_be_written(output);
-    const ViewDataset dataset = read_view_dataset(images, *find_enum<ExifOrientation>(exif));
-    for (const std::string& note : dataset_notes(dataset, Parallel::shared())) console.line(note);
+    io::check_can_be_written(output);
+    const ViewDataset dataset = io::read_view_dataset(images, *find_enum<ExifOrientation>(exif));
+    for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
     options.inference = inference_options_from_environment();
     const Pretrained result = pretrain(dataset, options, console.messages());
-    write_backbone(output, result.backbone, origin_text(result, options));
+    io::write_backbone(output, result.backbone, origin_text(result, options));
     console.result(joined(output.string(), ": ", result.backbone.kind().name, ", ", result.categories.size(),
                           " categories, ", result.training_pictures, " pictures; ", accuracy_text(result)));
   });

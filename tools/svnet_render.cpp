@@ -4,6 +4,8 @@
 #include "simulation/rendered_dataset.h"
 
 using namespace svnet;
+using namespace svnet::command;
+using svnet::simulation::RenderSummary;
 
 namespace {
 
@@ -28,12 +30,12 @@ int main(int argc, char** argv) {
                   "svnet-render --output runs/rendered\n"
                   "svnet-render --output runs/tools --categories hammer,wrench,pliers --objects 3 --size 160\n"
                   "svnet-render --output runs/mine --meshes meshes --unit 0.001");
-  RenderOptions options;
+  simulation::RenderOptions options;
   command.add("--output", options.output, "The folder to make").required();
   command
       .add("--categories", options.categories,
-           "Some categories, with commas between them (all " + std::to_string(catalogue_names().size()) + ": " +
-               joined_with(", ", catalogue_names()) + ")")
+           "Some categories, with commas between them (all " + std::to_string(simulation::catalogue_names().size()) +
+               ": " + joined_with(", ", simulation::catalogue_names()) + ")")
       .separated_by_commas();
   command.add("--objects", options.objects, "Objects of each category (5; further ones are mixtures of the first 5)")
       .in_range(1, 999);

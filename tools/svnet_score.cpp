@@ -13,6 +13,9 @@
 #include "train/stages/scores.h"
 
 namespace svnet {
+using namespace command;
+using train::Resume;
+
 namespace {
 
 int run(int argc, char** argv, Communicator& communicator) {
@@ -26,7 +29,7 @@ int run(int argc, char** argv, Communicator& communicator) {
   std::vector<std::string> excluded;
   bool resume = false;
   double snapshot_seconds = 10;
-  Config config;
+  train::Config config;
   command.add("--features", features_file, "Features of every view (svnet-features)").required().value_name("FILE");
   command.add("--dataset", dataset_folder, "The dataset that the features are of").required().value_name("DIR");
   command.add("--output", output, "The file to write").required().value_name("FILE");
@@ -59,18 +62,18 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (s.min_samples == 0 && s.problems == 0 && s.target_error == 0)
           wrong_usage("give one of --min-samples, --problems, --target-error");
         config.dataset.held_out = excluded;
-        if (communicator.is_root()) check_can_be_written(output, {features_file});
-        ViewDataset dataset = read_view_dataset(dataset_folder);
-        const Features features = read_features(features_file);
-        check_rows(dataset, features.paths, features_file.string());
+        if (communicator.is_root()) io::check_can_be_written(output, {features_file});
+        ViewDataset dataset = io::read_view_dataset(dataset_folder);
+        const Features features = io::read_features(features_file);
+        train::check_rows(dataset, features.paths, features_file.string());
         // Scores need no pixels: features of turned pictures are as good.
-        if (features.dataset_fingerprint != fingerprint(dataset, Parallel::shared()))
+        if (features.dataset_fingerprint != io::fingerprint(dataset, Parallel::shared()))
           dataset.exif_orientation = ExifOrientation::obey;
         check(dataset.exif_orientation == ExifOrientation::ignore ||
-                  features.dataset_fingerprint == fingerprint(dataset, Parallel::shared()),
+                  features.dataset_fingerprint == io::fingerprint(dataset, Parallel::shared()),
               features_file.string(), ": features of other pictures than those in ", dataset_folder.string(),
               "; run svnet-features again");
-        const std::vector<bool> left_out = named_categories(dataset, excluded, "--exclude");
+        const std::vector<bool> left_out = train::named_categories(dataset, excluded, "--exclude");
         const auto available = std::count(left_out.begin(), left_out.end(), false);
         check(available >= 2, available, " categories take part, at least 2 are needed",
               excluded.empty() ? "" : "; --exclude fewer");
@@ -80,7 +83,7 @@ int run(int argc, char** argv, Communicator& communicator) {
                                           {.resume = resume ? Resume::any : Resume::never,
                                            .snapshot_seconds = snapshot_seconds,
                                            .communicator = communicator});
-        if (communicator.is_root()) write_made_scores(output, scores);
+        if (communicator.is_root()) train::write_made_scores(output, scores);
         console.result(joined(output.string(), ": ", scores.problems, " problems"));
         console.result(certainty_text(scores));
       },

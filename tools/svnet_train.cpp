@@ -10,13 +10,17 @@
 #include "train/stages/scores.h"
 
 namespace svnet {
+using namespace command;
+using train::Resume;
+
 namespace {
 
 int run(int argc, char** argv, Communicator& communicator) {
-  Command command("svnet-train",
-                  "Runs the stages features, scores and model of a configuration into a run folder; svnet-eval evaluates it.",
-                  "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos\n"
-                  "mpirun -n 4 svnet-train --threads 8 configs/eth80.yaml");
+  Command command(
+      "svnet-train",
+      "Runs the stages features, scores and model of a configuration into a run folder; svnet-eval evaluates it.",
+      "svnet-train configs/eth80.yaml --set dataset.root=photos --output runs/photos\n"
+      "mpirun -n 4 svnet-train --threads 8 configs/eth80.yaml");
   std::filesystem::path config_file, output;
   std::vector<std::string> overrides;
   std::string resume = "auto";
@@ -36,20 +40,21 @@ int run(int argc, char** argv, Communicator& communicator) {
       argc, argv,
       [&](Console& console) {
         const InferenceOptions inference = inference_options_from_environment();
-        const Config config = read_config(config_file, overrides);
-        ViewDataset dataset = read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
+        const train::Config config = train::read_config(config_file, overrides);
+        ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
         if (dry) {
           if (communicator.is_root()) dry_run(config, dataset, console.messages(), inference);
           console.result("dry run: every stage works");
           return;
         }
         if (output.empty()) output = std::filesystem::path("runs") / config_file.stem();
-        check_run_folder(output, config.dataset.root);
-        const auto lock = communicator.is_root() ? lock_run_folder(output) : nullptr;
+        train::check_run_folder(output, config.dataset.root);
+        const auto lock = communicator.is_root() ? train::lock_run_folder(output) : nullptr;
         console.log_to(output / "log.txt");
-        const Run run = make_run(config, std::move(dataset), output, console.messages(), communicator, inference);
+        const train::Run run =
+            make_run(config, std::move(dataset), output, console.messages(), communicator, inference);
         write_config(run);
-        FeaturesStage features(run);
+        train::FeaturesStage features(run);
         const Scores scores = scores_stage(run, features);
         model_stage(run, features, scores, resume == "auto" ? Resume::same : Resume::never);
         console.result((output / "model.safetensors").string());

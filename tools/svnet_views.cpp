@@ -19,6 +19,11 @@
 namespace {
 
 using namespace svnet;
+using namespace svnet::command;
+using svnet::io::CameraFile;
+using svnet::localise::LocalisedObject;
+using svnet::view::CameraFrame;
+using svnet::view::CameraPose;
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
@@ -41,7 +46,7 @@ struct CameraView {
 /// The numbers of a view, by name, in the order of the columns.
 std::vector<std::pair<const char*, double>> fields(const CameraView& view) {
   const Eigen::Vector3d t = view.camera_to_world.translation();
-  const Eigen::Quaterniond q = orientation(view.camera_to_world);
+  const Eigen::Quaterniond q = view::orientation(view.camera_to_world);
   constexpr double kRadian = std::numbers::pi / 180;
   return {{"theta", view.pose.theta_deg},
           {"phi", view.pose.phi_deg},
@@ -83,12 +88,13 @@ LocalisedObject find_object(const Options& options, const CameraFile& camera) {
         ": the key 'pose' is missing, where the camera was for the pictures");
   std::optional<double> unit_m;
   if (!options.depth_unit.empty()) unit_m = depth_unit_m(options.depth_unit);
-  const Image before = read_image(options.background[0]), after = read_image(options.current[0]);
-  const DepthImage depth_before = read_depth(options.background[1], unit_m);
-  const DepthImage depth_after = read_depth(options.current[1], unit_m);
-  const LocaliseOptions how{
+  const Image before = io::read_image(options.background[0]), after = io::read_image(options.current[0]);
+  const DepthImage depth_before = io::read_depth(options.background[1], unit_m);
+  const DepthImage depth_after = io::read_depth(options.current[1], unit_m);
+  const localise::LocaliseOptions how{
       .take_largest = options.largest, .keep_steps = !options.steps.empty(), .unit_is_certain = unit_m.has_value()};
-  return localise(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after}, how);
+  return localise::locate(camera.intrinsics, *camera.camera_to_world, {before, depth_before}, {after, depth_after},
+                          how);
 }
 
 fs::path step_file(const Options& options, const char* step) { return options.steps / joined(step, ".png"); }
@@ -103,19 +109,19 @@ void check_outputs(const Options& options) {
     std::error_code error;
     fs::create_directories(options.steps, error);
     check(!error, options.steps.string(), ": cannot be made: ", error.message());
-    for (const char* step : kLocaliseSteps) outputs.push_back(step_file(options, step));
+    for (const char* step : localise::kLocaliseSteps) outputs.push_back(step_file(options, step));
   }
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;
-    check_can_be_written(output, others, Streams::allowed);
+    check_can_be_written(output, others, io::Streams::allowed);
     others.push_back(output);
   }
 }
 
 void write_views(const Options& options, Console& console) {
   check_outputs(options);
-  const CameraFile camera = read_camera(options.camera);
-  const CameraFrame frame = camera_frame_named(options.frame);
+  const CameraFile camera = io::read_camera(options.camera);
+  const CameraFrame frame = view::camera_frame_named(options.frame);
   Json document;
   Eigen::Vector3d centre;
   double diagonal_m = options.diagonal_m;
@@ -135,12 +141,12 @@ void write_views(const Options& options, Console& console) {
   document["radius_m"] = radius_m;
   document["frame"] = name_of(frame);
 
-  std::vector<CameraPose> poses = paper_grid();
-  if (!options.poses.empty()) poses = read_pose_list(options.poses);
-  if (options.fibonacci > 0) poses = fibonacci_half_sphere(options.fibonacci, options.lowest_phi_deg);
-  const Reachable reachable = options.reachable.empty()
-                                  ? [](const CameraPose&, const Eigen::Isometry3d&) { return true; }
-                                  : listed_poses(read_pose_list(options.reachable));
+  std::vector<CameraPose> poses = view::paper_grid();
+  if (!options.poses.empty()) poses = io::read_pose_list(options.poses);
+  if (options.fibonacci > 0) poses = view::fibonacci_half_sphere(options.fibonacci, options.lowest_phi_deg);
+  const view::Reachable reachable = options.reachable.empty()
+                                        ? [](const CameraPose&, const Eigen::Isometry3d&) { return true; }
+                                        : listed_poses(io::read_pose_list(options.reachable));
   std::vector<CameraView> views;
   std::vector<bool> reached;
   document["views"] = Json::array();
@@ -153,12 +159,13 @@ void write_views(const Options& options, Console& console) {
     document["views"].push_back(std::move(entry));
   }
   check(!views.empty(), options.reachable.string(), ": none of the ", poses.size(), " poses is reachable");
-  if (!options.csv.empty()) write_atomically(options.csv, csv_text(views));
-  if (!options.json.empty()) write_atomically(options.json, document.dump(2) + "\n");
-  if (!options.plot.empty()) write_png(options.plot, pose_plot(poses, reached));
-  for (std::size_t i = 0; i < steps.size(); ++i) write_png(step_file(options, kLocaliseSteps[i]), steps[i]);
+  if (!options.csv.empty()) io::write_atomically(options.csv, csv_text(views));
+  if (!options.json.empty()) io::write_atomically(options.json, document.dump(2) + "\n");
+  if (!options.plot.empty()) io::write_png(options.plot, pose_plot(poses, reached));
+  for (std::size_t i = 0; i < steps.size(); ++i)
+    io::write_png(step_file(options, localise::kLocaliseSteps[i]), steps[i]);
   for (const fs::path& output : {options.csv, options.json, options.plot})
-    if (is_standard_output(output)) return;
+    if (io::is_standard_output(output)) return;
   if (options.csv.empty() && options.json.empty()) {
     std::string text = csv_text(views);
     text.pop_back();

@@ -13,28 +13,30 @@
 
 namespace svnet {
 
-/// The names of an enum's values, each once, for files, YAML, command line, Python and messages. Specialise for each
-/// enum:
-///   template <>
-///   inline constexpr auto enum_names<Linkage> =
-///       std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"}, {Linkage::average, "average"}});
+/// The names of an enum's values, each once, for files, YAML, command line, Python and messages. An enum has a table if
+/// its own namespace has a function enum_table:
+///   constexpr auto enum_table(Linkage) {
+///     return std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"}, {Linkage::average, "average"}});
+///   }
 template <class Enum>
 struct EnumName {
   Enum value;
   const char* name;
 };
 
-template <class Enum>
-inline constexpr std::nullptr_t enum_names = nullptr;  // the enum has no table
-
 /// Whether the enum has a table of names.
 template <class Enum>
-inline constexpr bool has_enum_names = !std::is_same_v<decltype(enum_names<Enum>), const std::nullptr_t>;
+inline constexpr bool has_enum_names = requires {
+  enum_table(Enum{});
+};
+
+template <class Enum>
+inline constexpr auto enum_names = enum_table(Enum{});
 
 /// Requires a table that has the value.
 template <class Enum>
 constexpr const char* name_of(Enum value) {
-  static_assert(has_enum_names<Enum>, "specialise enum_names for this enum");
+  static_assert(has_enum_names<Enum>, "write enum_table for this enum, in its namespace");
   const auto entry = std::find_if(enum_names<Enum>.begin(), enum_names<Enum>.end(),
                                   [value](const EnumName<Enum>& e) { return e.value == value; });
   assert(entry != enum_names<Enum>.end());
@@ -44,7 +46,7 @@ constexpr const char* name_of(Enum value) {
 /// All names, in the order of the table.
 template <class Enum>
 std::vector<std::string> names_of() {
-  static_assert(has_enum_names<Enum>, "specialise enum_names for this enum");
+  static_assert(has_enum_names<Enum>, "write enum_table for this enum, in its namespace");
   std::vector<std::string> names;
   for (const EnumName<Enum>& entry : enum_names<Enum>) names.emplace_back(entry.name);
   return names;
@@ -53,7 +55,7 @@ std::vector<std::string> names_of() {
 /// The value of that name, if the table has it: for callers with a message of their own.
 template <class Enum>
 std::optional<Enum> find_enum(const std::string& name) {
-  static_assert(has_enum_names<Enum>, "specialise enum_names for this enum");
+  static_assert(has_enum_names<Enum>, "write enum_table for this enum, in its namespace");
   for (const EnumName<Enum>& entry : enum_names<Enum>)
     if (name == entry.name) return entry.value;
   return {};

@@ -6,8 +6,9 @@ namespace svnet {
 /// What to do with the EXIF orientation of a picture: take the pixels as they are stored, or turn them as viewers do.
 enum class ExifOrientation { ignore, obey };
 
-template <>
-inline constexpr auto enum_names<ExifOrientation> =
-    std::to_array<EnumName<ExifOrientation>>({{ExifOrientation::ignore, "ignore"}, {ExifOrientation::obey, "obey"}});
+constexpr auto enum_table(ExifOrientation) {
+  return std::to_array<EnumName<ExifOrientation>>(
+      {{ExifOrientation::ignore, "ignore"}, {ExifOrientation::obey, "obey"}});
+}
 
 }  // namespace svnet

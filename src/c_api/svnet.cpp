@@ -14,12 +14,13 @@
 #include "predict/predictor.h"
 
 struct svnet_model {
-  svnet::Predictor predictor;
+  svnet::predict::Predictor predictor;
 };
 
 namespace {
 
 using namespace svnet;
+using svnet::predict::Predictor;
 
 /// A fixed buffer, so that storing a message cannot run out of memory.
 thread_local char last_error[1024] = "";
@@ -74,7 +75,7 @@ std::vector<float> scores_of(const char* function, const svnet_model* model, con
   check_given(features, function, "features");
   if (count == 0) return {};
   check_given(poses_deg, function, "poses_deg");
-  std::vector<CameraPose> poses;
+  std::vector<view::CameraPose> poses;
   if (count > poses.max_size()) throw std::bad_alloc();
   poses.reserve(count);
   for (std::size_t i = 0; i < count; ++i) poses.push_back({poses_deg[2 * i], poses_deg[2 * i + 1]});
@@ -140,7 +141,7 @@ svnet_status svnet_best_view(const svnet_model* model, const float* features, co
     check_given(best, "svnet_best_view", "best");
     check(count > 0, "[svnet_best_view] count is 0, there is no pose to choose from");
     const std::vector<float> values = scores_of("svnet_best_view", model, features, poses_deg, count);
-    *best = best_view(values);
+    *best = predict::best_view(values);
     if (score != nullptr) *score = values[*best];
   });
 }

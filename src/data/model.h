@@ -9,12 +9,12 @@ namespace svnet {
 
 /// A trained SV-net with its backbone: it scores camera poses for a top image.
 struct Model {
-  std::string backbone;         // "mobilenet"
-  std::string backbone_output;  // the layer whose flattened output is the head's input
-  Preprocessing preprocessing;  // of the top image
+  std::string backbone;                 // "mobilenet"
+  std::string backbone_output;          // the layer whose flattened output is the head's input
+  models::Preprocessing preprocessing;  // of the top image
   Graph backbone_graph;
   Parameters backbone_parameters;
-  AngleEncoding angles = AngleEncoding::radians;
+  models::AngleEncoding angles = models::AngleEncoding::radians;
   /// A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as taken; kSymmetries: all, and
   /// the preprocessed image must be square.
   int symmetries = 1;

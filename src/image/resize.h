@@ -12,9 +12,10 @@ namespace svnet {
 /// bilinear differs by at most one level.
 enum class Interpolation { nearest, bilinear };
 
-template <>
-inline constexpr auto enum_names<Interpolation> = std::to_array<EnumName<Interpolation>>(
-    {{Interpolation::nearest, "nearest"}, {Interpolation::bilinear, "bilinear"}});
+constexpr auto enum_table(Interpolation) {
+  return std::to_array<EnumName<Interpolation>>(
+      {{Interpolation::nearest, "nearest"}, {Interpolation::bilinear, "bilinear"}});
+}
 
 /// Throws Error for an unknown name.
 Interpolation interpolation_named(std::string_view name);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-namespace svnet {
+namespace svnet::localise {
 namespace {
 
 /// Points along the rim of the convex hull, about `spacing` apart.
@@ -74,4 +74,4 @@ cv::Point2d soft_enclosing_centre(const std::vector<cv::Point2f>& points, double
   return centre;
 }
 
-}  // namespace svnet
+}  // namespace svnet::localise

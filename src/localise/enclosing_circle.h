@@ -2,7 +2,7 @@
 #include <opencv2/core.hpp>
 #include <vector>
 
-namespace svnet {
+namespace svnet::localise {
 
 /// The centre of a smallest enclosing circle that is robust against errors of the points.
 ///
@@ -12,4 +12,4 @@ namespace svnet {
 /// the result tends to the exact centre. Requires at least one point and softness > 0.
 cv::Point2d soft_enclosing_centre(const std::vector<cv::Point2f>& points, double softness);
 
-}  // namespace svnet
+}  // namespace svnet::localise

@@ -7,7 +7,7 @@
 #include <opencv2/imgproc.hpp>
 #include <vector>
 
-namespace svnet {
+namespace svnet::localise {
 namespace {
 
 float median(std::vector<float>& values) {
@@ -200,4 +200,4 @@ Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& bac
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::localise

@@ -1,7 +1,7 @@
 #pragma once
 #include <opencv2/core.hpp>
 
-namespace svnet {
+namespace svnet::localise {
 
 /// The pixels that differ from the background, and the measures behind the decision.
 struct Foreground {
@@ -15,4 +15,4 @@ struct Foreground {
 Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& background_depth_m, const cv::Mat3b& rgb,
                            const cv::Mat1f& depth_m);
 
-}  // namespace svnet
+}  // namespace svnet::localise

@@ -12,7 +12,9 @@
 #include "localise/enclosing_circle.h"
 #include "localise/foreground.h"
 
-namespace svnet {
+namespace svnet::localise {
+using view::Intrinsics;
+
 namespace {
 
 void check_fits(const Intrinsics& camera, const RgbdView& view, const char* which) {
@@ -347,8 +349,8 @@ LocalisedObject measured_object(const Pictures& pictures, const LocaliseOptions&
 
 }  // namespace
 
-LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
-                         const RgbdView& current, const LocaliseOptions& options) {
+LocalisedObject locate(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
+                       const RgbdView& current, const LocaliseOptions& options) {
   const std::string problem = intrinsics_problem(camera);
   check(problem.empty(), "[localise] ", problem);
   // The looking direction's z. A pose of another frame of a camera above the table has 0 here, up to rounding, or more.
@@ -378,4 +380,4 @@ LocalisedObject localise(const Intrinsics& camera, const Eigen::Isometry3d& came
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::localise

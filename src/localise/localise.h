@@ -10,7 +10,7 @@
 
 // Measures where an object is and how large (section 3 of the paper), from one RGB-D picture of the empty table and one
 // with the object, both from the same camera pose.
-namespace svnet {
+namespace svnet::localise {
 
 struct RgbdView {
   const Image& rgb;
@@ -50,7 +50,7 @@ struct LocalisedObject {
 /// pictures are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more,
 /// the object is larger than 1.5 m, or the unit of depth is doubtful: the table is far from z = 0, and with another
 /// unit it is not.
-LocalisedObject localise(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
-                         const RgbdView& current, const LocaliseOptions& = {});
+LocalisedObject locate(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,
+                       const RgbdView& current, const LocaliseOptions& = {});
 
-}  // namespace svnet
+}  // namespace svnet::localise

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 
-namespace svnet {
+namespace svnet::models {
 
 Backbone::Backbone(const BackboneKind& kind, const Graph& graph, const Parameters& parameters, const std::string& layer,
                    const InferenceOptions& options)
@@ -34,4 +34,4 @@ Backbone random_backbone(const std::string& name, const std::string& layer, std:
   return {kind, graph, initial_parameters(graph, seed), layer, options};
 }
 
-}  // namespace svnet
+}  // namespace svnet::models

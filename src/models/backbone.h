@@ -8,7 +8,7 @@
 #include "nn/graph/parameters.h"
 #include "nn/runtime/inference.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// A backbone up to the layer that gives the features, with its parameters. Safe to share between threads.
 class Backbone {
@@ -44,4 +44,4 @@ class Backbone {
 Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed,
                          const InferenceOptions& options = {});
 
-}  // namespace svnet
+}  // namespace svnet::models

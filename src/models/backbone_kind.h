@@ -5,7 +5,7 @@
 #include "models/preprocessing.h"
 #include "nn/graph/graph.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// All that is known about a backbone network without its weights.
 struct BackboneKind {
@@ -17,4 +17,4 @@ struct BackboneKind {
   std::vector<std::string> weight_files;  // the names under which Keras publishes its weights, best first
 };
 
-}  // namespace svnet
+}  // namespace svnet::models

@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::models {
 
 PixelMode pixel_mode_named(std::string_view name) {
   if (const auto mode = find_enum<PixelMode>(std::string(name))) return *mode;
@@ -35,4 +35,4 @@ void prepare(const Preprocessing& preprocessing, const Image& image, float* out)
   preprocess(preprocessing.mode, small.rgb.data(), pixels, out);
 }
 
-}  // namespace svnet
+}  // namespace svnet::models

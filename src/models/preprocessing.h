@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "image/resize.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// How pixels become network input: the modes of Keras' imagenet_utils.preprocess_input, with its bits.
 ///   none   the 8-bit values unchanged, RGB
@@ -14,9 +14,10 @@ namespace svnet {
 ///   tf     x / 127.5 - 1, RGB (Xception, MobileNet)
 enum class PixelMode { none, caffe, tf };
 
-template <>
-inline constexpr auto enum_names<PixelMode> =
-    std::to_array<EnumName<PixelMode>>({{PixelMode::none, "none"}, {PixelMode::caffe, "caffe"}, {PixelMode::tf, "tf"}});
+constexpr auto enum_table(PixelMode) {
+  return std::to_array<EnumName<PixelMode>>(
+      {{PixelMode::none, "none"}, {PixelMode::caffe, "caffe"}, {PixelMode::tf, "tf"}});
+}
 
 /// Throws Error for an unknown name.
 PixelMode pixel_mode_named(std::string_view name);
@@ -38,4 +39,4 @@ void preprocess(PixelMode, const std::uint8_t* rgb, Index pixels, float* out);
 /// Resizes to (height, width) if needed and preprocesses; out is (height, width, 3).
 void prepare(const Preprocessing&, const Image&, float* out);
 
-}  // namespace svnet
+}  // namespace svnet::models

@@ -3,7 +3,7 @@
 #include "base/text.h"
 #include "models/backbones.h"
 
-namespace svnet {
+namespace svnet::models {
 
 const std::vector<BackboneKind>& backbone_kinds() {
   static const std::vector<BackboneKind> kinds = [] {
@@ -28,4 +28,4 @@ NodeId output_layer(const BackboneKind& kind, const Graph& graph, const std::str
   return graph.find(pooled ? kind.pooled : layer);
 }
 
-}  // namespace svnet
+}  // namespace svnet::models

@@ -4,7 +4,7 @@
 
 #include "models/backbone_kind.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// Every backbone that is known by name.
 const std::vector<BackboneKind>& backbone_kinds();
@@ -16,4 +16,4 @@ const BackboneKind& backbone_kind(const std::string& name);
 /// global_average_pooling2d) mean `kind.pooled`. Throws Error if the graph has no such layer.
 NodeId output_layer(const BackboneKind& kind, const Graph& graph, const std::string& layer);
 
-}  // namespace svnet
+}  // namespace svnet::models

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "models/layers.h"
 
-namespace svnet {
+namespace svnet::models {
 namespace {
 
 NodeId dropout(Graph& g, const std::string& name, NodeId x, double rate) {
@@ -81,4 +81,4 @@ Graph sv_net(const SvNetOptions& o) {
   return g;
 }
 
-}  // namespace svnet
+}  // namespace svnet::models

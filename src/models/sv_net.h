@@ -4,7 +4,7 @@
 #include "base/enum_names.h"
 #include "nn/graph/graph.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// How a camera pose (θ azimuth, φ elevation) becomes the input `angles` of the network.
 ///   radians    θ − π, φ − π
@@ -13,9 +13,11 @@ namespace svnet {
 ///              network can easily give opposite views equal scores. The factor 4 keeps these few inputs from being
 ///              lost beside hundreds of activations.
 enum class AngleEncoding { radians, sphere, harmonics };
-template <>
-inline constexpr auto enum_names<AngleEncoding> = std::to_array<EnumName<AngleEncoding>>(
-    {{AngleEncoding::radians, "radians"}, {AngleEncoding::sphere, "sphere"}, {AngleEncoding::harmonics, "harmonics"}});
+constexpr auto enum_table(AngleEncoding) {
+  return std::to_array<EnumName<AngleEncoding>>({{AngleEncoding::radians, "radians"},
+                                                 {AngleEncoding::sphere, "sphere"},
+                                                 {AngleEncoding::harmonics, "harmonics"}});
+}
 /// Throws Error for an unknown name.
 AngleEncoding angle_encoding_named(const std::string& name);
 
@@ -37,4 +39,4 @@ struct SvNetOptions {
 /// is not 0.
 Graph sv_net(const SvNetOptions& options);
 
-}  // namespace svnet
+}  // namespace svnet::models

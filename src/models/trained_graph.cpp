@@ -3,7 +3,7 @@
 #include <map>
 #include <string_view>
 
-namespace svnet {
+namespace svnet::models {
 namespace {
 
 constexpr std::string_view kBackbone = "backbone/", kHead = "head/";
@@ -74,4 +74,4 @@ void take_trained(const Parameters& trained, Parameters& backbone, Parameters& h
       backbone.set(name.substr(kBackbone.size()), value);
 }
 
-}  // namespace svnet
+}  // namespace svnet::models

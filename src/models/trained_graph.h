@@ -2,7 +2,7 @@
 #include "nn/graph/graph.h"
 #include "nn/graph/parameters.h"
 
-namespace svnet {
+namespace svnet::models {
 
 /// The part of a model that is trained, as one graph: the layers of `backbone` after `from` up to `output`, named
 /// "backbone/<layer>", and `head`, named "head/<layer>", whose first input reads `output` (flattened). The inputs of
@@ -17,4 +17,4 @@ Parameters trained_parameters(const Graph& trained, const Parameters& backbone, 
 /// Copies the trained parameters back into those of `backbone` and `head`.
 void take_trained(const Parameters& trained, Parameters& backbone, Parameters& head);
 
-}  // namespace svnet
+}  // namespace svnet::models

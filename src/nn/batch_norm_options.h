@@ -8,9 +8,10 @@ namespace svnet {
 /// pytorch: moving = (1 − momentum) · moving + momentum · batch, with the unbiased variance (momentum near 0).
 enum class MomentumConvention { keras, pytorch };
 
-template <>
-inline constexpr auto enum_names<MomentumConvention> = std::to_array<EnumName<MomentumConvention>>(
-    {{MomentumConvention::keras, "keras"}, {MomentumConvention::pytorch, "pytorch"}});
+constexpr auto enum_table(MomentumConvention) {
+  return std::to_array<EnumName<MomentumConvention>>(
+      {{MomentumConvention::keras, "keras"}, {MomentumConvention::pytorch, "pytorch"}});
+}
 
 struct BatchNormOptions {
   double momentum = 0.99;

@@ -16,8 +16,7 @@ enum class DType { f32, f64 };
 template <class T>
 inline constexpr DType kDType = std::is_same_v<T, double> ? DType::f64 : DType::f32;
 
-template <>
-inline constexpr auto enum_names<DType> = std::to_array<EnumName<DType>>({{DType::f32, "f32"}, {DType::f64, "f64"}});
+constexpr auto enum_table(DType) { return std::to_array<EnumName<DType>>({{DType::f32, "f32"}, {DType::f64, "f64"}}); }
 
 /// Sizes from the slowest to the fastest axis. Images are (N, H, W, C), convolution weights (KH, KW, C, K).
 using Shape = std::vector<Index>;

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/finite.h"
 
-namespace svnet {
+namespace svnet::predict {
 
 void check_finite(const Tensor& values, const char* what, std::size_t first) {
   const auto all = values.values<float>();
@@ -11,4 +11,4 @@ void check_finite(const Tensor& values, const char* what, std::size_t first) {
     fail("[predict] ", what, " ", first + *bad, " is ", all[*bad], ", not a finite number");
 }
 
-}  // namespace svnet
+}  // namespace svnet::predict

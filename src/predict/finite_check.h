@@ -3,10 +3,10 @@
 
 #include "nn/tensor.h"
 
-namespace svnet {
+namespace svnet::predict {
 
 /// Throws Error for a value that is not finite: "[predict] feature 7 is nan, …". `first` is the index of the first
 /// value.
 void check_finite(const Tensor& values, const char* what, std::size_t first = 0);
 
-}  // namespace svnet
+}  // namespace svnet::predict

@@ -8,7 +8,9 @@
 #include "predict/predictor.h"
 #include "view/half_sphere_canvas.h"
 
-namespace svnet {
+namespace svnet::predict {
+using view::Colour;
+
 namespace {
 
 constexpr double kDot_px = 11;
@@ -20,12 +22,12 @@ constexpr std::array<Colour, 5> kScale{{{48, 18, 92}, {59, 82, 139}, {33, 145, 1
 Colour scale_colour(double height) {
   const double place = std::clamp(height, 0.0, 1.0) * (kScale.size() - 1);
   const auto below = std::min(static_cast<std::size_t>(place), kScale.size() - 2);
-  return mixed(kScale[below], kScale[below + 1], place - static_cast<double>(below));
+  return view::mixed(kScale[below], kScale[below + 1], place - static_cast<double>(below));
 }
 
 }  // namespace
 
-Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float> scores) {
+Image half_sphere_plot(std::span<const view::CameraPose> poses, std::span<const float> scores) {
   check(poses.size() == scores.size(), "[plot] there are ", poses.size(), " poses and ", scores.size(), " scores");
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string problem = pose_problem(poses[i]);
@@ -36,7 +38,7 @@ Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float>
   const auto [low, high] = std::minmax_element(scores.begin(), scores.end());
   const double lowest = *low, range = static_cast<double>(*high) - lowest;
 
-  HalfSphereCanvas canvas;
+  view::HalfSphereCanvas canvas;
   std::vector<std::size_t> order = best_first(scores);
   for (auto i = order.rbegin(); i != order.rend(); ++i) {
     canvas.disc(kOutline, clamped_pose(poses[*i]), kDot_px + 1);
@@ -46,4 +48,4 @@ Image half_sphere_plot(std::span<const CameraPose> poses, std::span<const float>
   return canvas.take();
 }
 
-}  // namespace svnet
+}  // namespace svnet::predict

@@ -7,10 +7,10 @@
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::predict {
 
 Predictor::Predictor(const std::filesystem::path& model_file, const InferenceOptions& options)
-    : Predictor(read_model(model_file), options) {}
+    : Predictor(io::read_model(model_file), options) {}
 
 Predictor::Predictor(const Model& model, const InferenceOptions& options)
     : preprocessing_(model.preprocessing),
@@ -25,14 +25,14 @@ Tensor Predictor::embed(const Image& top) const {
   Tensor batch = Tensor::empty({symmetries_, preprocessing_.height, preprocessing_.width, 3});
   prepare(preprocessing_, top, batch.data<float>());
   for (int symmetry = 1; symmetry < symmetries_; ++symmetry)
-    apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
-                   batch.data<float>() + symmetry * preprocessing_.size());
+    view::apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
+                         batch.data<float>() + symmetry * preprocessing_.size());
   const Tensor features = backbone_.run({batch});
   check_finite(features, "feature");
   return features.reshaped({1, feature_count()});
 }
 
-std::vector<float> Predictor::scores(const Tensor& features, std::span<const CameraPose> poses) const {
+std::vector<float> Predictor::scores(const Tensor& features, std::span<const view::CameraPose> poses) const {
   return head_.scores(features, poses);
 }
 
@@ -48,4 +48,4 @@ std::vector<std::size_t> best_first(std::span<const float> scores) {
   return order;
 }
 
-}  // namespace svnet
+}  // namespace svnet::predict

@@ -9,7 +9,7 @@
 #include "predict/score_head.h"
 #include "view/camera_pose.h"
 
-namespace svnet {
+namespace svnet::predict {
 
 /// A trained model for inference. A top image becomes features once; features and a camera pose become a score in
 /// [0, 1]. Thread-safe.
@@ -27,10 +27,10 @@ class Predictor {
   Tensor embed(const Image& top) const;
 
   /// ScoreHead::scores of features that embed has returned.
-  std::vector<float> scores(const Tensor& features, std::span<const CameraPose> poses) const;
+  std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
  private:
-  Preprocessing preprocessing_;
+  models::Preprocessing preprocessing_;
   int symmetries_;
   Inference backbone_;
   ScoreHead head_;
@@ -42,4 +42,4 @@ std::size_t best_view(std::span<const float> scores);
 /// The indices of all scores, highest score first; equal scores keep their order.
 std::vector<std::size_t> best_first(std::span<const float> scores);
 
-}  // namespace svnet
+}  // namespace svnet::predict

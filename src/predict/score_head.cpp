@@ -6,7 +6,9 @@
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::predict {
+using view::CameraPose;
+
 namespace {
 
 /// Poses per run of the head: many, so that its weights are read rarely, but few enough that the repeated features stay
@@ -40,7 +42,7 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
       for (Index i = 0; i < size; ++i) {
         const CameraPose pose = clamped_pose(poses[static_cast<std::size_t>(begin + i)]);
         // Within [0, 360): a model with plain angles was trained on these only.
-        const double theta_deg = symmetric_theta_deg(symmetry, pose.theta_deg);
+        const double theta_deg = view::symmetric_theta_deg(symmetry, pose.theta_deg);
         std::copy_n(features.data<float>() + symmetry * dimension, dimension, repeated.data<float>() + i * dimension);
         encode_angles(angles_, theta_deg, pose.phi_deg, encoded.data<float>() + i * angles);
       }
@@ -52,4 +54,4 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::predict

@@ -6,7 +6,7 @@
 #include "nn/runtime/inference.h"
 #include "view/camera_pose.h"
 
-namespace svnet {
+namespace svnet::predict {
 
 /// A trained model without its backbone: it scores camera poses from features. Thread-safe.
 class ScoreHead {
@@ -19,13 +19,13 @@ class ScoreHead {
   /// One score per pose, in order. A score does not depend on the other poses of the call, and poses a whole turn apart
   /// have the same score. Throws Error unless features are (1, D) finite f32 and every pose is in range
   /// (view/camera_pose.h).
-  std::vector<float> scores(const Tensor& features, std::span<const CameraPose> poses) const;
+  std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
  private:
-  AngleEncoding angles_;
+  models::AngleEncoding angles_;
   int symmetries_;
   Index feature_count_;
   Inference network_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::predict

@@ -20,7 +20,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace svnet {
+namespace svnet::semantics {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -313,11 +313,11 @@ void agglomerate_here(Linkage linkage, Index k, const AgglomerationState& s) {
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace svnet
+}  // namespace svnet::semantics
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace svnet {
+namespace svnet::semantics {
 
 HWY_EXPORT(agglomerate_here);
 
@@ -325,5 +325,5 @@ void agglomerate(Linkage linkage, Index k, AgglomerationState state) {
   HWY_DYNAMIC_DISPATCH(agglomerate_here)(linkage, k, state);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics
 #endif

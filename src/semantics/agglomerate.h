@@ -4,7 +4,7 @@
 #include "base/index.h"
 #include "semantics/linkage.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The memory of one agglomeration. A slot holds one cluster: slot i starts as point i. Arrays have at least `stride`
 /// elements and are 64-byte aligned.
@@ -24,4 +24,4 @@ struct AgglomerationState {
 /// does not depend on the order of its operands.
 void agglomerate(Linkage linkage, Index k, AgglomerationState state);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "semantics/agglomerate.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 Agglomerative::Agglomerative(Linkage linkage, Index max_points)
     : linkage_(linkage),
@@ -49,4 +49,4 @@ void Agglomerative::merge_to(Index k, const float* triangle, std::span<std::int3
   }
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

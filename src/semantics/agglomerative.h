@@ -5,7 +5,7 @@
 #include "semantics/linkage.h"
 #include "semantics/problem_distances.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// Agglomerative clustering in float32, with its memory. Merges the pair of clusters with the smallest dissimilarity
 /// until k are left. Ward, complete and single linkage work on squared distances, average on distances; complete and
@@ -36,4 +36,4 @@ class Agglomerative {
   AlignedArray<std::int32_t> nearest_, merged_into_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

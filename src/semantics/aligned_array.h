@@ -7,7 +7,7 @@
 #include "base/aligned.h"
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// An array from aligned_memory: 64-byte aligned, with one vector of padding, so that kernels may read whole vectors.
 template <class T>
@@ -34,4 +34,4 @@ class AlignedArray {
   std::unique_ptr<T[], FreeAligned> values_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 /// Counts the labels into sizes. Returns the largest label + 1.
@@ -170,4 +170,4 @@ double purity(Labels truth, Labels predicted) { return contingency(truth, predic
 
 double adjusted_rand(Labels truth, Labels predicted) { return contingency(truth, predicted).adjusted_rand(); }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

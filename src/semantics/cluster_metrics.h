@@ -6,21 +6,22 @@
 #include "base/enum_names.h"
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The individual Fowlkes-Mallows score of a singleton, an item whose class has no other item. Its score is 0/0.
 /// zero: the score is 0, as in scikit-learn. skip: the score is NaN, and means leave it out.
 /// An item that has true partners but is alone in its cluster is not a singleton; its score is 0.
 enum class Singletons { zero, skip };
-template <>
-inline constexpr auto enum_names<Singletons> = std::to_array<EnumName<Singletons>>({{Singletons::zero, "zero"},
-                                                                                    {Singletons::skip, "skip"}});
+constexpr auto enum_table(Singletons) {
+  return std::to_array<EnumName<Singletons>>({{Singletons::zero, "zero"}, {Singletons::skip, "skip"}});
+}
 
 /// The mean of the two entropies by which mutual information is divided.
 enum class NmiAverage { arithmetic, geometric };
-template <>
-inline constexpr auto enum_names<NmiAverage> =
-    std::to_array<EnumName<NmiAverage>>({{NmiAverage::arithmetic, "arithmetic"}, {NmiAverage::geometric, "geometric"}});
+constexpr auto enum_table(NmiAverage) {
+  return std::to_array<EnumName<NmiAverage>>(
+      {{NmiAverage::arithmetic, "arithmetic"}, {NmiAverage::geometric, "geometric"}});
+}
 
 /// The contingency table of two labellings of the same items, and the metrics that follow from it. Pairs are counted in
 /// 64 bits. Not thread-safe.
@@ -72,4 +73,4 @@ double normalized_mutual_info(Labels truth, Labels predicted, NmiAverage average
 double purity(Labels truth, Labels predicted);
 double adjusted_rand(Labels truth, Labels predicted);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 std::variant<Agglomerative, KMeans> algorithm(const ClusteringOptions& options, Index max_points, Index max_clusters) {
@@ -42,4 +42,4 @@ void Clusterer::cluster(const LowerTriangle& distances, Index k, std::uint64_t s
     std::get<KMeans>(algorithm_).cluster(distances, k, RandomStream(seed, Stream::kmeans, number), labels);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

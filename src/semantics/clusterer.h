@@ -6,17 +6,17 @@
 #include "semantics/agglomerative.h"
 #include "semantics/kmeans.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The algorithms: agglomerative clustering by its linkage, and k-means.
 enum class Clustering { ward, average, complete, single, kmeans };
-template <>
-inline constexpr auto enum_names<Clustering> =
-    std::to_array<EnumName<Clustering>>({{Clustering::ward, name_of(Linkage::ward)},
-                                         {Clustering::average, name_of(Linkage::average)},
-                                         {Clustering::complete, name_of(Linkage::complete)},
-                                         {Clustering::single, name_of(Linkage::single)},
-                                         {Clustering::kmeans, "kmeans"}});
+constexpr auto enum_table(Clustering) {
+  return std::to_array<EnumName<Clustering>>({{Clustering::ward, name_of(Linkage::ward)},
+                                              {Clustering::average, name_of(Linkage::average)},
+                                              {Clustering::complete, name_of(Linkage::complete)},
+                                              {Clustering::single, name_of(Linkage::single)},
+                                              {Clustering::kmeans, "kmeans"}});
+}
 
 struct ClusteringOptions {
   Clustering method = Clustering::ward;
@@ -41,4 +41,4 @@ class Clusterer {
   std::variant<Agglomerative, KMeans> algorithm_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

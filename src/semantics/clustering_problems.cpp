@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 /// Uniform in [lowest, highest].
@@ -168,4 +168,4 @@ void ClusteringProblems::draw_views(RandomStream& random, ClusteringProblem& pro
   }
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

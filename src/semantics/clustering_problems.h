@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "base/random.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 struct ProblemOptions {
   Index min_categories = 3;
@@ -93,4 +93,4 @@ class ClusteringProblems {
   std::vector<std::uint8_t> may_have_partner_;          // per view
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

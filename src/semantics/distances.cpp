@@ -9,7 +9,7 @@
 #include "base/finite.h"
 #include "semantics/product_tile.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr Index kTile = kProductTile, kDepth = kProductDepth;
@@ -159,4 +159,4 @@ DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Pa
 template DistanceMatrix squared_distances(const float*, Index, Index, Parallel&, Communicator&);
 template DistanceMatrix squared_distances(const double*, Index, Index, Parallel&, Communicator&);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

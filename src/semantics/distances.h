@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "semantics/aligned_array.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// A symmetric (n, n) matrix of squared Euclidean distances in float32 with a zero diagonal. Rows are 64-byte aligned.
 class DistanceMatrix {
@@ -39,4 +39,4 @@ template <class T>
 DistanceMatrix squared_distances(const T* features, Index n, Index dimension, Parallel& parallel,
                                  Communicator& communicator = SingleProcess::shared());
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "semantics/kmeans_kernels.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -234,4 +234,4 @@ double KMeans::move_centres() {
   return total;
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "semantics/problem_distances.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 struct KMeansOptions {
   Index n_init = 10;           ///< runs; the one with the lowest inertia is kept
@@ -76,4 +76,4 @@ class KMeans {
   std::vector<std::int32_t> label_of_cluster_;              // (k) in order of first appearance; -1: not yet seen
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

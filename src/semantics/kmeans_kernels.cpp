@@ -8,7 +8,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace svnet::kmeans {
+namespace svnet::semantics::kmeans {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -61,11 +61,11 @@ void assign_here(const double* sum, Index stride, const double* scale, const dou
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace svnet::kmeans
+}  // namespace svnet::semantics::kmeans
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace svnet::kmeans {
+namespace svnet::semantics::kmeans {
 
 HWY_EXPORT(potential_here);
 HWY_EXPORT(take_minimum_here);
@@ -86,5 +86,5 @@ void assign(const double* sum, Index stride, const double* scale, const double* 
   HWY_DYNAMIC_DISPATCH(assign_here)(sum, stride, scale, half_spread, k, n, nearest, label);
 }
 
-}  // namespace svnet::kmeans
+}  // namespace svnet::semantics::kmeans
 #endif

@@ -3,7 +3,7 @@
 
 #include "base/index.h"
 
-namespace svnet::kmeans {
+namespace svnet::semantics::kmeans {
 
 // Loops over the n points of a problem. Requires: arrays are 64-byte aligned and padded to a multiple of 16 elements;
 // the padding is finite, and 0 in `closest`. Sums are in double.
@@ -23,4 +23,4 @@ void add_row(const float* row, double factor, Index n, double* sum);
 void assign(const double* sum, Index stride, const double* scale, const double* half_spread, Index k, Index n,
             double* nearest, double* label);
 
-}  // namespace svnet::kmeans
+}  // namespace svnet::semantics::kmeans

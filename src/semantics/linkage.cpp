@@ -1,6 +1,6 @@
 #include "semantics/linkage.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 Linkage linkage_named(const std::string& name) {
   const auto found = find_enum<Linkage>(name);
@@ -8,4 +8,4 @@ Linkage linkage_named(const std::string& name) {
   return *found;
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

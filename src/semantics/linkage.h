@@ -3,16 +3,17 @@
 
 #include "base/enum_names.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// How agglomerative clustering measures the dissimilarity of two clusters.
 enum class Linkage { ward, average, complete, single };
-template <>
-inline constexpr auto enum_names<Linkage> = std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"},
-                                                                              {Linkage::average, "average"},
-                                                                              {Linkage::complete, "complete"},
-                                                                              {Linkage::single, "single"}});
+constexpr auto enum_table(Linkage) {
+  return std::to_array<EnumName<Linkage>>({{Linkage::ward, "ward"},
+                                           {Linkage::average, "average"},
+                                           {Linkage::complete, "complete"},
+                                           {Linkage::single, "single"}});
+}
 /// Throws Error for an unknown name.
 Linkage linkage_named(const std::string& name);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

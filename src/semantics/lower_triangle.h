@@ -1,7 +1,7 @@
 #pragma once
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The squared distances between the points of one problem, each pair once. Row i holds the distances to points 0 to
 /// i - 1 and is padded to a multiple of 64 bytes, so that rows share no cache line.
@@ -22,4 +22,4 @@ struct LowerTriangle {
   static constexpr Index size(Index points) { return row_offset(points); }
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

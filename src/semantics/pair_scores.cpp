@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace svnet {
+namespace svnet::semantics {
 
 PairScores::PairScores(Index max_categories)
     : max_categories_(max_categories),
@@ -42,4 +42,4 @@ double PairScores::score(std::span<const std::int32_t> truth, std::span<const st
   return both == 0 ? 0 : std::sqrt(tp / in_truth) * std::sqrt(tp / in_prediction);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -5,7 +5,7 @@
 
 #include "semantics/cluster_metrics.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The Fowlkes-Mallows scores of Contingency without the other metrics: faster, for many problems. Pairs are counted in
 /// integers. Not thread-safe.
@@ -24,4 +24,4 @@ class PairScores {
   std::vector<std::int32_t> class_size_, cluster_size_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr Index kChunk = 512;                 // problems that are drawn and sorted as one chunk
@@ -150,4 +150,4 @@ void ProblemBatch::copy_rows(Index begin, Index end) {
   }
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -9,7 +9,7 @@
 #include "semantics/distances.h"
 #include "semantics/lower_triangle.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// Many problems at once, with the distances between the items of each. The distances of one problem are scattered over
 /// the whole matrix, so fetching them alone costs a cache miss each. Here the items of all problems are sorted by
@@ -62,4 +62,4 @@ class ProblemBatch {
   AlignedArray<float> triangles_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -6,7 +6,7 @@
 #include "semantics/distances.h"
 #include "semantics/lower_triangle.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The distances between the points of one problem as a square matrix, the working memory of a clustering algorithm.
 /// The copy functions fill only the part below the diagonal: elements 0 to i - 1 of row i.
@@ -53,4 +53,4 @@ class ProblemDistances {
   AlignedArray<float> values_;  // three rows more than points: kernels read blocks of four rows
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

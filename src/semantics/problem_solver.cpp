@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr Index kSolvedChunk = 64;  // problems that a thread solves as one chunk
@@ -83,4 +83,4 @@ void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& su
   for (auto& worker : workers_) sums.add_and_clear(worker.sums);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -7,7 +7,7 @@
 #include "semantics/problem_batch.h"
 #include "semantics/score_sums.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// Options for drawing, clustering and scoring problems.
 struct ProblemScoring {
@@ -46,4 +46,4 @@ class ProblemSolver {
   std::vector<Worker> workers_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::semantics

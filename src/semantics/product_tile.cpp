@@ -6,7 +6,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
-namespace svnet {
+namespace svnet::semantics {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
@@ -49,11 +49,11 @@ void add_products_here(const double* left, const double* right, Index depth, dou
 }
 
 }  // namespace HWY_NAMESPACE
-}  // namespace svnet
+}  // namespace svnet::semantics
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
-namespace svnet {
+namespace svnet::semantics {
 
 HWY_EXPORT(panel_widths_here);
 HWY_EXPORT(add_products_here);
@@ -64,5 +64,5 @@ void add_products(const double* left, const double* right, Index depth, double* 
   HWY_DYNAMIC_DISPATCH(add_products_here)(left, right, depth, products);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics
 #endif

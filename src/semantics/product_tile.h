@@ -1,7 +1,7 @@
 #pragma once
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 constexpr Index kProductTile = 192;   ///< rows and columns of a tile
 constexpr Index kProductDepth = 256;  ///< largest depth of one call
@@ -17,4 +17,4 @@ PanelWidths panel_widths();
 /// alignment. Each product is summed in the order of d.
 void add_products(const double* left, const double* right, Index depth, double* products);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

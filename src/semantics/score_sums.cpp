@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
@@ -103,4 +103,4 @@ std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<co
   return scaled;
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

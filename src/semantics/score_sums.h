@@ -5,7 +5,7 @@
 
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 /// The sums of the scores of the problems solved so far, per view. Scores are 64-bit fixed point with 32 binary places:
 /// sums of up to kMostProblems scores fit, and the order of the additions does not change them. So any split of the
@@ -70,4 +70,4 @@ std::vector<double> rank_stability(const ScoreSums& sums, std::span<const std::i
 /// Throws Error if the lengths differ or a pose is negative.
 std::vector<double> scaled_per_pose(std::span<const double> scores, std::span<const std::int32_t> pose_of_view);
 
-}  // namespace svnet
+}  // namespace svnet::semantics

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::semantics {
 namespace {
 
 constexpr std::uint64_t kBlock = 16384;         // problems between two checks of the stopping rules, at first
@@ -122,4 +122,4 @@ SemanticScores semantic_scores(const DistanceMatrix& distances, const Clustering
   return scores_from(sums);
 }
 
-}  // namespace svnet
+}  // namespace svnet::semantics

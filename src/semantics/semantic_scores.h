@@ -8,7 +8,7 @@
 #include "base/progress.h"
 #include "semantics/problem_solver.h"
 
-namespace svnet {
+namespace svnet::semantics {
 
 struct ScoreOptions {
   // Stopping rules. 0: off. At least one is needed; the first that holds stops.
@@ -45,4 +45,4 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
 SemanticScores semantic_scores(const DistanceMatrix& distances, const ClusteringProblems& problems,
                                const ScoreOptions& options, Parallel& parallel, const Messages& messages = {});
 
-}  // namespace svnet
+}  // namespace svnet::semantics

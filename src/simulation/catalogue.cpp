@@ -7,7 +7,7 @@
 #include "base/text.h"
 #include "simulation/catalogue/designs.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 const std::vector<CategoryDesigns>& all_designs() {
@@ -62,4 +62,4 @@ Mesh catalogue_object(const std::string& category, Index object, std::uint64_t s
   return sculptor.take();
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The names of the categories of household objects and tools, in alphabetical order. The first kDesigns objects of a
 /// category are designs; each further one mixes two of them at random.
@@ -17,4 +17,4 @@ constexpr Index kDesigns = 5;
 /// Error for an unknown category and suggests the nearest name.
 Mesh catalogue_object(const std::string& category, Index object, std::uint64_t seed);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -2,7 +2,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// Whether the object reaches the border of the picture.
@@ -20,12 +20,12 @@ CollectedPose attempt(const RestingMesh& object, Index pose, Index size, std::ui
   const PosedObject posed = pose_object(object.mesh, object.resting, pose, seed, number);
   const Scene scene(&object.mesh, posed.object_to_world, posed.setting);
   const Overview overview = capture_overview(posed, scene, seed, number);
-  CollectedPose result{
-      posed,
-      overview,
-      localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
-               {overview.current.rgb, overview.current.depth}),
-      {}};
+  CollectedPose result{posed,
+                       overview,
+                       localise::locate(overview_camera(), overview_camera_to_world(),
+                                        {overview.background.rgb, overview.background.depth},
+                                        {overview.current.rgb, overview.current.depth}),
+                       {}};
   for (std::size_t view = 0; view < posed.views.size(); ++view) {
     result.views.push_back(capture_view(posed, scene, result.object, size, seed, number, view));
     check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
@@ -51,4 +51,4 @@ PoseCollection collect_pose(const RestingMesh& object, Index pose, Index size, s
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

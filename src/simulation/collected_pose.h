@@ -6,13 +6,13 @@
 #include "simulation/collection.h"
 #include "simulation/object_in_work.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A pose that a robot collected: the object was found in the overview and is seen as a whole in every view.
 struct CollectedPose {
   PosedObject posed;
   Overview overview;
-  LocalisedObject object;
+  localise::LocalisedObject object;
   std::vector<CapturedView> views;  // one for each of posed.views; shot.radiance is empty
 };
 
@@ -28,4 +28,4 @@ struct PoseCollection {
 /// attempts the pose is given up. `number` as for pose_object.
 PoseCollection collect_pose(const RestingMesh&, Index pose, Index size, std::uint64_t seed, std::uint32_t number);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -8,7 +8,10 @@
 #include "simulation/resting.h"
 #include "view/pose_grid.h"
 
-namespace svnet {
+namespace svnet::simulation {
+using view::CameraFrame;
+using view::Intrinsics;
+
 namespace {
 
 // Indices of the pictures of one pose, 0 … 2^16 - 1; views have their own index. kPlan keys the numbers of pose_object.
@@ -40,7 +43,7 @@ PosedObject pose_object(const Mesh& mesh, std::span<const RestingPose> resting, 
       Eigen::Vector3d(x, y, 0) - Eigen::Vector3d(box.center().x(), box.center().y(), box.min().z());
 
   // A robot cannot reach some views: mostly 0 to 2, rarely up to 5; the top view is never missing.
-  posed.views = paper_grid();
+  posed.views = view::paper_grid();
   const double u = random.uniform();
   for (auto missing = static_cast<int>(6 * u * u * u); missing > 0; --missing)
     posed.views.erase(posed.views.begin() + random.below(static_cast<std::uint32_t>(posed.views.size()) - 1));
@@ -75,8 +78,8 @@ Overview capture_overview(const PosedObject& posed, const Scene& scene, std::uin
   return {picture(empty, kBackground, 1), picture(scene, kOverview, brighter)};
 }
 
-CapturedView capture_view(const PosedObject& posed, const Scene& scene, const LocalisedObject& object, Index size,
-                          std::uint64_t seed, std::uint32_t number, std::size_t view) {
+CapturedView capture_view(const PosedObject& posed, const Scene& scene, const localise::LocalisedObject& object,
+                          Index size, std::uint64_t seed, std::uint32_t number, std::size_t view) {
   constexpr int kSamples = 4;
   const Intrinsics camera = view_camera(size);
   const Eigen::Isometry3d from =
@@ -87,4 +90,4 @@ CapturedView capture_view(const PosedObject& posed, const Scene& scene, const Lo
   return captured;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -11,14 +11,14 @@
 
 // The steps of collecting one pose of one object as a robot does: place it, take an overview, take the paper's views.
 // `number` < 2^16 identifies the object and pose in a dataset; with the seed it determines all random numbers.
-namespace svnet {
+namespace svnet::simulation {
 
 /// An object on a table under some light, and the camera poses that the robot reaches.
 struct PosedObject {
   const Mesh* mesh;
   Eigen::Isometry3d object_to_world;
   Setting setting;
-  std::vector<CameraPose> views;
+  std::vector<view::CameraPose> views;
 };
 
 /// Pose `pose` of an object. Successive poses use its resting poses in turn; the object is rotated about the vertical
@@ -29,12 +29,12 @@ PosedObject pose_object(const Mesh&, std::span<const RestingPose>, Index pose, s
                         std::uint32_t number);
 
 /// The camera of the overview: 640x480, 1 m above the table, looking down.
-Intrinsics overview_camera();
+view::Intrinsics overview_camera();
 Eigen::Isometry3d overview_camera_to_world();
 /// The sizes of objects that it can find: it sees about 1 m of the table, and 1 mm is less than a pixel.
 constexpr double kSmallestObject_m = 0.001, kLargestObject_m = 1;
 /// The camera of the views: size x size pixels, the angle of view of the paper's camera.
-Intrinsics view_camera(Index size);
+view::Intrinsics view_camera(Index size);
 
 /// Pictures of the empty table and of the object from the overview camera. The light changes a little between them.
 struct Overview {
@@ -49,7 +49,7 @@ struct CapturedView {
   Shot shot;
   RgbdPicture picture;
 };
-CapturedView capture_view(const PosedObject&, const Scene&, const LocalisedObject&, Index size, std::uint64_t seed,
-                          std::uint32_t number, std::size_t view);
+CapturedView capture_view(const PosedObject&, const Scene&, const localise::LocalisedObject&, Index size,
+                          std::uint64_t seed, std::uint32_t number, std::size_t view);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

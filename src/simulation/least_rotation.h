@@ -7,7 +7,7 @@
 
 // The rotation between two directions. It has the bits of Eigen's Quaternion::FromTwoVectors, which takes ten seconds
 // to compile in each file that calls it: for opposite directions it instantiates a singular value decomposition.
-namespace svnet {
+namespace svnet::simulation {
 
 /// A unit vector that is perpendicular to the nearly opposite unit vectors a and b: the last column of Q in the QR
 /// decomposition of (a, b) by Householder reflections, with the longer column first.
@@ -61,4 +61,4 @@ Eigen::Quaternion<Scalar> least_rotation(const Eigen::Matrix<Scalar, 3, 1>& from
   return rotation;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

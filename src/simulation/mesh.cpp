@@ -5,7 +5,7 @@
 #include <numbers>
 #include <tuple>
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// An index per point; points that agree to a micrometre have the same index.
@@ -81,4 +81,4 @@ Eigen::Vector3d centre_of_mass(const Mesh& mesh) {
   return area > 0 ? Vector3d(origin + by_area / area) : origin;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -6,7 +6,7 @@
 
 #include "image/image.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 using Vec2 = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3f;
@@ -58,4 +58,4 @@ void shade_smoothly(Mesh&, float crease_deg = 40);
 /// volume.
 Eigen::Vector3d centre_of_mass(const Mesh&);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

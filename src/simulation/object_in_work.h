@@ -10,7 +10,7 @@
 #include "simulation/mesh.h"
 #include "simulation/resting.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A mesh and how it may lie on a table.
 struct RestingMesh {
@@ -57,4 +57,4 @@ class ObjectInWork {
   std::vector<std::string> lines_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

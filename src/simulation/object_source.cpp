@@ -11,7 +11,7 @@
 #include "simulation/meshes/mesh_unit.h"
 #include "simulation/meshes/object_folder.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,7 +47,7 @@ std::vector<fs::path> named_entries(const fs::path& folder, bool (*is_wanted_kin
   std::vector<fs::path> entries;
   for (const fs::path& entry : sorted_entries(folder)) {
     if (!is_wanted_kind(entry)) continue;
-    if (is_ignored_name(entry.filename()))
+    if (io::is_ignored_name(entry.filename()))
       line("left out: " + entry.string() + ": names that begin with '_' or '.' are ignored in data sets");
     else
       entries.push_back(entry);
@@ -114,4 +114,4 @@ Mesh mesh_of(const ObjectSource& source, std::optional<double> unit, std::uint64
   return read_mesh(source.file, {source.collection, unit_of, line});
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -8,7 +8,7 @@
 #include "base/index.h"
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// An object to render: a design of the catalogue if `file` is empty, else a mesh file.
 struct ObjectSource {
@@ -37,4 +37,4 @@ std::vector<ObjectSource> mesh_sources(const std::filesystem::path& folder, cons
 Mesh mesh_of(const ObjectSource&, std::optional<double> metres_per_unit, std::uint64_t seed,
              const std::function<void(const std::string&)>& line);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

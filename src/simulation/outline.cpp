@@ -8,7 +8,7 @@
 
 #include "simulation/sculptor.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 template <class Points>
@@ -143,4 +143,4 @@ std::vector<std::array<std::uint32_t, 3>> triangulated(const Outline& outline, c
   return triangles;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -17,7 +17,7 @@
 #include "simulation/object_in_work.h"
 #include "simulation/object_source.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,22 +42,22 @@ Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, c
                 const fs::path& extra) {
   fs::create_directories(folder);
   fs::create_directories(extra);
-  write_png(extra / "overview_background.png", pose.overview.background.rgb);
-  write_depth_png(extra / "overview_background_depth.png", pose.overview.background.depth);
-  write_png(extra / "overview.png", pose.overview.current.rgb);
-  write_depth_png(extra / "overview_depth.png", pose.overview.current.depth);
+  io::write_png(extra / "overview_background.png", pose.overview.background.rgb);
+  io::write_depth_png(extra / "overview_background_depth.png", pose.overview.background.depth);
+  io::write_png(extra / "overview.png", pose.overview.current.rgb);
+  io::write_depth_png(extra / "overview_depth.png", pose.overview.current.depth);
   Json names = Json::array();
   for (std::size_t i = 0; i < pose.views.size(); ++i) {
     const CapturedView& view = pose.views[i];
-    const CameraPose& from = pose.posed.views[i];
+    const view::CameraPose& from = pose.posed.views[i];
     const std::string name =
         std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
-    write_png(folder / (name + ".png"), view.picture.rgb);
-    write_depth_png(extra / (name + "_depth.png"), view.picture.depth);
-    write_grey_png(extra / (name + "_mask.png"), view.shot.height, view.shot.width, view.shot.mask);
+    io::write_png(folder / (name + ".png"), view.picture.rgb);
+    io::write_depth_png(extra / (name + "_depth.png"), view.picture.depth);
+    io::write_grey_png(extra / (name + "_mask.png"), view.shot.height, view.shot.width, view.shot.mask);
     names.push_back(name);
   }
-  const LocalisedObject& object = pose.object;
+  const localise::LocalisedObject& object = pose.object;
   return Json{{"centre_m", {object.centre_m.x(), object.centre_m.y(), object.centre_m.z()}},
               {"length_m", object.length_m},
               {"width_m", object.width_m},
@@ -92,7 +92,7 @@ class RenderJob {
   }
 
   RenderSummary run() {
-    FreshFolder folder(options_.output);
+    io::FreshFolder folder(options_.output);
     render_poses(folder.path());
     const Index left_out =
         std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.problem.empty(); });
@@ -211,12 +211,12 @@ class RenderJob {
         sheet.push_back({.groups = std::vector<SheetGroup>(1), .label = source.category});
       if (!entry.picture.rgb.empty()) sheet.back().groups[0].cells.push_back({std::move(entry.picture)});
     }
-    write_png(folder / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheet));
+    io::write_png(folder / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheet));
     // Messages may quote bytes of a mesh file that are not UTF-8.
-    write_atomically(folder / "manifest.json", manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
-    write_atomically(folder / "_extra" / "overview_camera.json",
-                     camera_json({overview_camera(), overview_camera_to_world()}));
-    write_atomically(folder / "_extra" / "view_camera.json", camera_json({view_camera(options_.size), {}}));
+    io::write_atomically(folder / "manifest.json", manifest.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
+    io::write_atomically(folder / "_extra" / "overview_camera.json",
+                         io::camera_json({overview_camera(), overview_camera_to_world()}));
+    io::write_atomically(folder / "_extra" / "view_camera.json", io::camera_json({view_camera(options_.size), {}}));
     return pictures;
   }
 
@@ -234,4 +234,4 @@ RenderSummary render_dataset(const RenderOptions& options, const Messages& messa
   return RenderJob(options, messages).run();
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

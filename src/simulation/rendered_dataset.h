@@ -14,7 +14,7 @@
 //                                       "height_m", "radius_m", "tries", "views"}}}}}
 //   _extra/CATEGORY/OBJECT/POSE/        overview(_background)(_depth).png, PHI_THETA_depth.png, PHI_THETA_mask.png
 //   _extra/                             contact_sheet.png, overview_camera.json, view_camera.json
-namespace svnet {
+namespace svnet::simulation {
 
 struct RenderOptions {
   std::filesystem::path output;         // must not exist or be an empty folder
@@ -40,4 +40,4 @@ struct RenderSummary {
 /// there is no output folder.
 RenderSummary render_dataset(const RenderOptions&, const Messages&);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -10,7 +10,7 @@
 #include "base/random.h"
 #include "simulation/least_rotation.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using Eigen::Vector2d;
@@ -252,4 +252,4 @@ std::vector<RestingPose> resting_poses(const Mesh& mesh, std::size_t exact_point
   return poses;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

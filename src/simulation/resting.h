@@ -6,7 +6,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The triangles of the convex hull as indices of points, counter-clockwise from outside (incremental algorithm).
 /// Points are moved by up to 10⁻⁵ of the extent, so a point may lie outside the hull by that much. Throws Error if all
@@ -30,4 +30,4 @@ struct RestingPose {
 /// 0.05 % of the extent.
 std::vector<RestingPose> resting_poses(const Mesh&, std::size_t exact_points = 32768);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -13,7 +13,7 @@
 #include "base/random.h"
 #include "simulation/texture.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
@@ -320,7 +320,7 @@ Scene::Scene(const Mesh* mesh, const Eigen::Isometry3d& object_to_world, const S
 
 Scene::~Scene() = default;
 
-Shot Scene::shoot(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const PictureKey& key,
+Shot Scene::shoot(const view::Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const PictureKey& key,
                   int samples) const {
   Shot shot;
   shot.height = camera.height;
@@ -360,4 +360,4 @@ Shot Scene::shoot(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_w
   return shot;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

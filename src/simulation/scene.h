@@ -8,7 +8,7 @@
 #include "simulation/setting.h"
 #include "view/camera.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The key of a picture's random numbers: pixel p uses the index `number` << 32 | p of the seed, on any thread.
 struct PictureKey {
@@ -35,11 +35,11 @@ class Scene {
 
   /// `camera_to_world` is the pose of the optical frame. Requires a camera above the table. Traces `samples` rays per
   /// pixel, the first one through its centre.
-  Shot shoot(const Intrinsics&, const Eigen::Isometry3d& camera_to_world, const PictureKey&, int samples) const;
+  Shot shoot(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const PictureKey&, int samples) const;
 
  private:
   struct Tracer;
   std::unique_ptr<Tracer> tracer_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

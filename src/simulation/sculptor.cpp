@@ -6,7 +6,7 @@
 
 #include "simulation/least_rotation.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// The outline moved inwards by `distance` along its normals.
@@ -228,4 +228,4 @@ Mesh Sculptor::take() {
   return std::move(mesh_);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 using Outline = std::vector<Vec2>;
 using Path = std::vector<Vec3>;
@@ -90,4 +90,4 @@ Outline moved(Outline outline, float x, float y);
 /// of the outline followed by those of the holes.
 std::vector<std::array<std::uint32_t, 3>> triangulated(const Outline& outline, const std::vector<Outline>& holes);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

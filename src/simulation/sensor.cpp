@@ -7,7 +7,7 @@
 #include "base/random.h"
 #include "simulation/texture.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// Blurs with a Gaussian of σ = 0.5 pixels, rows first. Border pixels are repeated.
@@ -78,4 +78,4 @@ RgbdPicture sensor_picture(const Shot& shot, const PictureKey& key, float exposu
   return picture;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -1,7 +1,7 @@
 #pragma once
 #include "simulation/scene.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A picture of an RGB-D camera.
 struct RgbdPicture {
@@ -14,4 +14,4 @@ struct RgbdPicture {
 /// σ = 1.4 mm · z² (z in metres) and is rounded to millimetres; many pixels along silhouettes are not measured.
 RgbdPicture sensor_picture(const Shot&, const PictureKey&, float exposure = 1);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

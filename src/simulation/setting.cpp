@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace svnet {
+namespace svnet::simulation {
 
 Setting random_setting(RandomStream& random) {
   const auto between = [&](double low, double high) {
@@ -49,4 +49,4 @@ Setting random_setting(RandomStream& random) {
   return setting;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -4,7 +4,7 @@
 #include "base/random.h"
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A round lamp.
 struct Lamp {
@@ -24,4 +24,4 @@ struct Setting {
 /// A table and light drawn at random.
 Setting random_setting(RandomStream&);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

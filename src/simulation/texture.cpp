@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// A hash of lattice points to [0, 1).
@@ -128,4 +128,4 @@ bool is_metal(const Material& material, const Vec2& uv, const std::vector<Image>
   return material.metal_factor * static_cast<float>(pixel_at(picture, uv, material.wrap)[2]) / 255 > 0.5f;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

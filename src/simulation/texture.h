@@ -1,7 +1,7 @@
 #pragma once
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The colour of a material at a point of the object's own frame, in metres. `uv` and `pictures` matter where the
 /// texture is a picture, which multiplies the material's colour; v = 0 is its lowest row.
@@ -14,4 +14,4 @@ bool is_metal(const Material&, const Vec2& uv, const std::vector<Image>& picture
 float linear_from_srgb(std::uint8_t level);
 float srgb_from_linear(float value);  // in [0, 255], clipped
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// Uniform in [-most, most).
@@ -88,4 +88,4 @@ Image augmented(const Image& image, const Augmentation& how, RandomStream& rando
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

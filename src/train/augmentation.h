@@ -2,7 +2,7 @@
 #include "base/random.h"
 #include "image/image.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// How much a picture is changed at random, so that a network learns to ignore such changes. 0: not at all.
 struct Augmentation {
@@ -19,4 +19,4 @@ struct Augmentation {
 /// The image with random changes from the stream. Pixels outside of the image repeat its border.
 Image augmented(const Image& image, const Augmentation& how, RandomStream& random);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,7 +4,7 @@
 
 #include "data/view_dataset.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Throws Error, beginning with `what`, unless `paths` are the dataset's views in its order.
 void check_rows(const ViewDataset& dataset, const std::vector<std::string>& paths, const std::string& what);
@@ -14,4 +14,4 @@ void check_rows(const ViewDataset& dataset, const std::vector<std::string>& path
 std::vector<bool> named_categories(const ViewDataset& dataset, const std::vector<std::string>& names,
                                    const std::string& key);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -6,7 +6,7 @@
 
 #include "base/random.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The indices of all examples, in the random order of an epoch.
 inline std::vector<std::int32_t> epoch_order(Index count, std::uint64_t seed, Index epoch) {
@@ -30,4 +30,4 @@ inline Index batch_count(Index batch_size, Index count) {
   return batches;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -5,18 +5,21 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::train {
+using semantics::ClusteringProblem;
+using semantics::Contingency;
+
 namespace {
 
 /// The memory of one thread.
 struct Worker {
   ClusteringProblem problem;
-  std::vector<Clusterer> clusterers;  // per pipeline
+  std::vector<semantics::Clusterer> clusterers;  // per pipeline
   Contingency contingency;
   std::vector<std::int32_t> labels;
 };
 
-PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const DistanceMatrix& distances,
+PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const semantics::DistanceMatrix& distances,
                              std::uint64_t number, const EvaluationOptions& options) {
   const ClusteringProblem& problem = worker.problem;
   const auto labels = std::span(worker.labels).first(problem.rows.size());
@@ -41,7 +44,7 @@ struct RunningMean {
 
 }  // namespace
 
-EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& problems,
+EvaluationTable evaluate(const ViewDataset& dataset, const semantics::ClusteringProblems& problems,
                          const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
                          const EvaluationOptions& options, Parallel& parallel, const Messages& messages,
                          const std::string& task) {
@@ -101,4 +104,4 @@ EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& p
   return table;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

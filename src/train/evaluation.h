@@ -11,13 +11,13 @@
 #include "train/metrics.h"
 #include "train/selectors.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// One way to cluster views: by the distances of their features, and by an algorithm.
 struct EvaluationPipeline {
   std::string name;  // "mobilenet_v2_ward"
-  const DistanceMatrix* distances;
-  ClusteringOptions clustering;
+  const semantics::DistanceMatrix* distances;
+  semantics::ClusteringOptions clustering;
 };
 
 struct Mean {
@@ -35,15 +35,15 @@ struct EvaluationTable {
 struct EvaluationOptions {
   std::uint64_t problems = 10000;
   std::uint64_t seed = 0;
-  NmiAverage nmi = NmiAverage::arithmetic;
+  semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
 };
 
 /// Solves the same random problems (objects and poses of Stream::evaluation, random views of Stream::selector) with
 /// the views of every selector and with every pipeline. Requires: `problems` are of the dataset's views, with its
 /// indices of categories, objects and poses. The result has the same bits for any number of threads.
-EvaluationTable evaluate(const ViewDataset& dataset, const ClusteringProblems& problems,
+EvaluationTable evaluate(const ViewDataset& dataset, const semantics::ClusteringProblems& problems,
                          const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
                          const EvaluationOptions& options, Parallel& parallel, const Messages& messages,
                          const std::string& task);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 std::string padded(std::string text, std::size_t width) {
@@ -60,4 +60,4 @@ std::string tables_json(const EvaluationTables& tables) {
   return json.dump(2) + "\n";
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,7 +4,7 @@
 
 #include "train/evaluation.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Tables by split, "training" and "held_out".
 using EvaluationTables = std::map<std::string, EvaluationTable>;
@@ -16,4 +16,4 @@ std::string table_text(const EvaluationTable& table, const std::string& title);
 /// {"format": 1, "problems", "tables": {split: {pipeline: {selector: {metric: {"mean", "standard_error"}}}}}}.
 std::string tables_json(const EvaluationTables& tables);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -11,7 +11,10 @@
 #include "io/images/image_file.h"
 #include "io/models/backbone_file.h"
 
-namespace svnet {
+namespace svnet::train {
+using models::BackboneKind;
+using models::Preprocessing;
+
 namespace {
 
 constexpr Index kBatch = 16;
@@ -22,7 +25,8 @@ Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Inde
   Tensor batch = Tensor::empty({end - begin, how.height, how.width, 3});
   parallel.for_chunks(end - begin, 1, [&](Index i, Index, int) {
     const View& view = dataset.views[static_cast<std::size_t>(begin + i)];
-    prepare(how, read_image(dataset.root / view.path, dataset.exif_orientation), batch.data<float>() + i * how.size());
+    prepare(how, io::read_image(dataset.root / view.path, dataset.exif_orientation),
+            batch.data<float>() + i * how.size());
   });
   return batch;
 }
@@ -36,19 +40,20 @@ std::string preprocessing_text(const Preprocessing& p) {
 BackboneWithOrigin backbone_from_folder(const std::string& name, const std::string& layer,
                                         const std::filesystem::path& folder, std::uint64_t seed,
                                         const InferenceOptions& options) {
-  const BackboneKind& kind = backbone_kind(name);
+  const BackboneKind& kind = models::backbone_kind(name);
   if (!folder.empty())
-    if (const auto file = find_weights(kind, folder))
-      return {read_backbone(name, *file, layer, nullptr, options), file_sha256(*file)};
-  if (auto built_in = built_in_backbone(name, layer, options)) return {std::move(built_in->backbone), built_in->sha256};
+    if (const auto file = io::find_weights(kind, folder))
+      return {io::read_backbone(name, *file, layer, nullptr, options), io::file_sha256(*file)};
+  if (auto built_in = io::built_in_backbone(name, layer, options))
+    return {std::move(built_in->backbone), built_in->sha256};
   check_weights(name, folder);
-  return {random_backbone(name, layer, seed, options), joined("random, seed ", seed)};
+  return {models::random_backbone(name, layer, seed, options), joined("random, seed ", seed)};
 }
 
 void check_weights(const std::string& name, const std::filesystem::path& folder) {
-  const BackboneKind& kind = backbone_kind(name);
-  check(folder.empty() || find_weights(kind, folder) || has_built_in_weights(kind), folder.string(), ": no weights of ",
-        kind.name, "; put one of these files there: ", kind.name, ".safetensors, ",
+  const BackboneKind& kind = models::backbone_kind(name);
+  check(folder.empty() || io::find_weights(kind, folder) || io::has_built_in_weights(kind), folder.string(),
+        ": no weights of ", kind.name, "; put one of these files there: ", kind.name, ".safetensors, ",
         joined_with(", ", kind.weight_files));
 }
 
@@ -69,7 +74,7 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
   return origin;
 }
 
-Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
+Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator) {
   const auto count = static_cast<Index>(dataset.views.size());
   const Index dimension = backbone.dimension();
@@ -110,4 +115,4 @@ Features extract_features(const Backbone& backbone, const ViewDataset& dataset, 
   return features;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

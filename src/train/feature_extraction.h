@@ -5,21 +5,21 @@
 #include "io/views/features_file.h"
 #include "models/backbone.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Returns the features of every view of the dataset, in its order, with `origin` copied into them. While a batch runs
 /// through the backbone, other threads read and prepare the images of the next one; with one thread, one follows the
 /// other. The processes of the communicator share the batches, and each gets all features. The bits do not depend on
 /// the number of threads and processes, or on the images that share a batch.
-Features extract_features(const Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
+Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
-std::string preprocessing_text(const Preprocessing& preprocessing);
+std::string preprocessing_text(const models::Preprocessing& preprocessing);
 
 /// A backbone, and where its weights come from.
 struct BackboneWithOrigin {
-  Backbone backbone;
+  models::Backbone backbone;
   std::string weights;  ///< the SHA-256 of their file, or "random, seed 7"
 };
 
@@ -36,4 +36,4 @@ void check_weights(const std::string& name, const std::filesystem::path& folder)
 /// fingerprint is another.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// The largest absolute value; infinity if an element is not finite.
@@ -41,4 +41,4 @@ bool has_finite_gradient(const autograd::GradientMap& gradients, const Tensor& p
   return is_finite(gradients.of(parameter));
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

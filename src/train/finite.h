@@ -2,7 +2,7 @@
 #include "nn/autograd.h"
 #include "nn/tensor.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Whether every element is finite. An empty handle is finite. Requires f32.
 bool is_finite(const Tensor& tensor);
@@ -11,4 +11,4 @@ bool is_finite(const Tensor& tensor);
 /// the factors' largest elements bound it.
 bool has_finite_gradient(const autograd::GradientMap& gradients, const Tensor& parameter);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -3,10 +3,10 @@
 #include "base/parallel.h"
 #include "io/images/image_file.h"
 
-namespace svnet {
+namespace svnet::train {
 
 LabelledPictures::LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures,
-                                   const Preprocessing& preprocessing, const Messages& messages,
+                                   const models::Preprocessing& preprocessing, const Messages& messages,
                                    const std::string& task)
     : preprocessing_(preprocessing), images_(pictures.size()) {
   constexpr Index kBlock = 256;  // between two reports
@@ -16,7 +16,7 @@ LabelledPictures::LabelledPictures(const ViewDataset& dataset, std::vector<Pictu
     Parallel::shared().for_chunks(count, 1, [&](Index begin, Index, int) {
       const auto i = static_cast<std::size_t>(first + begin);
       const View& view = dataset.views[static_cast<std::size_t>(pictures[i].view)];
-      images_[i] = resized(read_image(dataset.root / view.path, dataset.exif_orientation), preprocessing.height,
+      images_[i] = resized(io::read_image(dataset.root / view.path, dataset.exif_orientation), preprocessing.height,
                            preprocessing.width, preprocessing.interpolation);
     });
     progress.update(first + count);
@@ -49,4 +49,4 @@ LabelledPictures::Batch LabelledPictures::augmented_batch(std::span<const std::i
   });
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -8,7 +8,7 @@
 #include "nn/tensor.h"
 #include "train/augmentation.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Images of a dataset in memory, at the size that a network takes, each with its class.
 class LabelledPictures {
@@ -19,8 +19,8 @@ class LabelledPictures {
   };
 
   /// Reads the images. Throws Error, with the name of the file, if one cannot be read.
-  LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures, const Preprocessing& preprocessing,
-                   const Messages& messages, const std::string& task);
+  LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures,
+                   const models::Preprocessing& preprocessing, const Messages& messages, const std::string& task);
 
   Index size() const { return static_cast<Index>(images_.size()); }
 
@@ -39,9 +39,9 @@ class LabelledPictures {
   template <class Change>
   Batch batch_of(std::span<const std::int32_t> indices, const Change& change) const;
 
-  Preprocessing preprocessing_;
+  models::Preprocessing preprocessing_;
   std::vector<Image> images_;
   std::vector<Index> classes_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -15,7 +15,7 @@
 #include "train/labelled_pictures.h"
 #include "train/training_step.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// Images to train on, and to validate on.
@@ -117,7 +117,7 @@ ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimi
 }  // namespace
 
 Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages) {
-  const BackboneKind& kind = backbone_kind(options.backbone);
+  const models::BackboneKind& kind = models::backbone_kind(options.backbone);
   const PictureSplit parts = split(dataset, options);
   const LabelledPictures training(dataset, parts.training, kind.preprocessing, messages, "reading pictures");
   const LabelledPictures validation(dataset, parts.validation, kind.preprocessing, messages,
@@ -129,9 +129,9 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
   Graph head;
   const NodeId features = head.input("features", {element_count(layers.node(pooled).shape)});
   head.add("logits", DenseLayer{.units = static_cast<Index>(parts.categories.size())}, {features});
-  const Graph graph = trained_graph(layers, layers.inputs().at(0), layers.output(), head);
+  const Graph graph = models::trained_graph(layers, layers.inputs().at(0), layers.output(), head);
   Parameters backbone = initial_parameters(layers, options.seed);
-  Parameters parameters = trained_parameters(graph, backbone, head, options.seed);
+  Parameters parameters = models::trained_parameters(graph, backbone, head, options.seed);
 
   const Index per_epoch = batch_count(options.batch_size, training.size());
   const Index warm_up = std::min(per_epoch, options.epochs * per_epoch / 10);
@@ -168,9 +168,9 @@ Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& option
                  validation.size() > 0 ? joined(", of unseen objects ", percent(validation_accuracy)) : std::string()));
   }
   Parameters dropped;
-  take_trained(parameters, backbone, dropped);
-  return {Backbone(kind, layers, backbone, "", options.inference), parts.categories, training.size(), validation.size(),
-          validation_accuracy};
+  models::take_trained(parameters, backbone, dropped);
+  return {models::Backbone(kind, layers, backbone, "", options.inference), parts.categories, training.size(),
+          validation.size(), validation_accuracy};
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -8,7 +8,7 @@
 #include "models/backbone.h"
 #include "train/augmentation.h"
 
-namespace svnet {
+namespace svnet::train {
 
 struct PretrainingOptions {
   std::string backbone = "tiny_xception";
@@ -24,7 +24,7 @@ struct PretrainingOptions {
 };
 
 struct Pretrained {
-  Backbone backbone;
+  models::Backbone backbone;
   std::vector<std::string> categories;
   Index training_pictures = 0, validation_pictures = 0;
   /// Share of the validation images whose category is recognised; NaN if there are none.
@@ -37,4 +37,4 @@ struct Pretrained {
 /// to train on, if an image cannot be read, or if the loss is not finite.
 Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,14 +4,14 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::train {
 
 Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores& config) {
   return std::min(config.min_categories, static_cast<Index>(std::count(excluded.begin(), excluded.end(), false)));
 }
 
-ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
-                                       const Config::Scores& config) {
+semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
+                                                  const Config::Scores& config) {
   std::vector<std::int64_t> category, object, pose, excluded_categories;
   for (const View& view : dataset.views) {
     category.push_back(view.category);
@@ -26,11 +26,11 @@ ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::ve
     check(excluded[c] || objects[c] >= config.min_objects, "category '", dataset.categories[c], "' has ", objects[c],
           " objects, fewer than min_objects, ", config.min_objects, "; lower it, or leave the category out");
   return {category, object, pose,
-          ProblemOptions{.min_categories = fewest_categories(excluded, config),
-                         .max_categories = config.max_categories,
-                         .min_objects = config.min_objects,
-                         .max_objects = config.max_objects,
-                         .excluded_categories = excluded_categories}};
+          semantics::ProblemOptions{.min_categories = fewest_categories(excluded, config),
+                                    .max_categories = config.max_categories,
+                                    .min_objects = config.min_objects,
+                                    .max_objects = config.max_objects,
+                                    .excluded_categories = excluded_categories}};
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -5,14 +5,14 @@
 #include "semantics/clustering_problems.h"
 #include "train/config/config.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The fewest categories in a problem: scores.min_categories, or all that are not excluded if those are fewer.
 Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores& config);
 
 /// The random problems of a configuration over the categories of a dataset that are not excluded. Throws Error if a
 /// category has too few objects.
-ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
-                                       const Config::Scores& config);
+semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
+                                                  const Config::Scores& config);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -17,7 +17,9 @@
 #include "train/trained_from.h"
 #include "train/validation_categories.h"
 
-namespace svnet {
+namespace svnet::train {
+using models::BackboneKind;
+
 namespace fs = std::filesystem;
 
 namespace {
@@ -25,13 +27,13 @@ namespace {
 void check_config(const Run& run) {
   const Config& config = run.config;
   const auto check_backbone = [&](const std::string& name, const std::string& layer) {
-    const BackboneKind& kind = backbone_kind(name);
+    const BackboneKind& kind = models::backbone_kind(name);
     output_layer(kind, kind.graph(kind.preprocessing.height, true), layer);
     check_weights(name, config.weights.folder);
   };
   check_backbone(config.scores.backbone, config.scores.layer);
   check_backbone(config.sv_net.backbone, config.sv_net.layer);
-  const BackboneKind& tuned = backbone_kind(config.sv_net.backbone);
+  const BackboneKind& tuned = models::backbone_kind(config.sv_net.backbone);
   const Graph graph = tuned.graph(tuned.preprocessing.height, true);
   static_cast<void>(
       trained_from(config.training.fine_tune, tuned, graph, output_layer(tuned, graph, config.sv_net.layer)));
@@ -69,10 +71,10 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
           .messages = messages,
           .communicator = communicator,
           .inference = inference};
-  make_folder(run.folder);
+  io::make_folder(run.folder);
   if (run.communicator.is_root())
-    for (const std::string& note : dataset_notes(run.dataset, Parallel::shared())) run.say(note);
-  run.dataset_fingerprint = fingerprint(run.dataset, Parallel::shared());
+    for (const std::string& note : io::dataset_notes(run.dataset, Parallel::shared())) run.say(note);
+  run.dataset_fingerprint = io::fingerprint(run.dataset, Parallel::shared());
   run.say(joined("dataset ", run.config.dataset.root.string(), ": ", run.dataset.categories.size(), " categories, ",
                  run.dataset.objects.size(), " objects, ", run.dataset.poses.size(), " poses, ",
                  run.dataset.views.size(), " views"));
@@ -81,7 +83,7 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
 }
 
 void write_config(const Run& run) {
-  if (run.communicator.is_root()) write_atomically(run.folder / "config.yaml", to_yaml(run.config, run.folder));
+  if (run.communicator.is_root()) io::write_atomically(run.folder / "config.yaml", to_yaml(run.config, run.folder));
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

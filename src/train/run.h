@@ -9,7 +9,7 @@
 #include "nn/runtime/inference_options.h"
 #include "train/config/config.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// One run: a configuration, its dataset and its folder. Every stage (train/stages/) is a function of the run and of
 /// what earlier stages returned:
@@ -43,4 +43,4 @@ Run make_run(Config config, ViewDataset dataset, std::filesystem::path folder, c
 /// Writes config.yaml, the resolved configuration, into the run folder.
 void write_config(const Run& run);
 
-}  // namespace svnet
+}  // namespace svnet::train

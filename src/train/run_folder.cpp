@@ -9,7 +9,9 @@
 #include "io/views/dataset_folder.h"
 #include "train/config/config_file.h"
 
-namespace svnet {
+namespace svnet::train {
+using io::FileLock;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -38,7 +40,7 @@ bool is_named_as_result(const fs::path& file) {
 bool is_among_pictures(const fs::path& folder, const fs::path& root) {
   const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(root));
   if (relative.empty() || *relative.begin() == "..") return false;
-  return relative == "." || std::none_of(relative.begin(), relative.end(), is_ignored_name);
+  return relative == "." || std::none_of(relative.begin(), relative.end(), io::is_ignored_name);
 }
 
 }  // namespace
@@ -59,11 +61,11 @@ void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
 }
 
 std::unique_ptr<FileLock> lock_run_folder(const fs::path& folder) {
-  make_folder(folder);
+  io::make_folder(folder);
   auto lock = std::make_unique<FileLock>(folder / "log.txt");
   check(lock->held(), folder.string(),
         ": another svnet-train is at work in this run folder; wait until it ends, or give another folder by --output");
   return lock;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

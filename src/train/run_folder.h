@@ -4,7 +4,7 @@
 
 #include "io/files/file_lock.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Throws Error if a run in `folder` would overwrite files that no run wrote (a config.yaml written by hand, or results
 /// without a config.yaml), or if the folder lies inside the dataset. The folder need not exist.
@@ -12,6 +12,6 @@ void check_run_folder(const std::filesystem::path& folder, const std::filesystem
 
 /// Makes the folder if there is none, and keeps other processes from training in it while the result exists. Throws
 /// Error if one does so already. The lock is on log.txt, which is never replaced.
-std::unique_ptr<FileLock> lock_run_folder(const std::filesystem::path& folder);
+std::unique_ptr<io::FileLock> lock_run_folder(const std::filesystem::path& folder);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 const SelectorKind kSelectors[] = {
@@ -73,4 +73,4 @@ std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const
   return views;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -7,7 +7,7 @@
 
 #include "data/view_dataset.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Chooses a view of each pose. `view`: per pose of the dataset, the index of the chosen view. Empty: a random view,
 /// drawn for each problem.
@@ -53,4 +53,4 @@ std::vector<std::int32_t> top_views(const ViewDataset& dataset);
 /// score.
 std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores);
 
-}  // namespace svnet
+}  // namespace svnet::train

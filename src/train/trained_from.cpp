@@ -1,8 +1,8 @@
 #include "train/trained_from.h"
 
-namespace svnet {
+namespace svnet::train {
 
-NodeId trained_from(FineTune fine_tune, const BackboneKind& kind, const Graph& graph, NodeId output) {
+NodeId trained_from(FineTune fine_tune, const models::BackboneKind& kind, const Graph& graph, NodeId output) {
   switch (fine_tune) {
     case FineTune::none:
       return output;
@@ -19,4 +19,4 @@ NodeId trained_from(FineTune fine_tune, const BackboneKind& kind, const Graph& g
   return from;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -13,7 +13,9 @@
 #include "train/epoch_order.h"
 #include "train/training_step.h"
 
-namespace svnet {
+namespace svnet::train {
+using io::Checkpoint;
+
 namespace {
 
 constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
@@ -90,7 +92,7 @@ double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) 
     const auto part = std::span(examples).subspan(static_cast<std::size_t>(begin),
                                                   static_cast<std::size_t>(std::min(most, set.size() - begin)));
     const auto batch = set.batch(part);
-    const Tensor score = infer(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()})[0];
+    const Tensor score = run_inference(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()})[0];
     sum += ops::mean_squared_error(score, batch.targets).item() * static_cast<double>(part.size());
   }
   return sum / static_cast<double>(set.size());
@@ -147,4 +149,4 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
   }
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

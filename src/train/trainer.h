@@ -10,7 +10,7 @@
 #include "nn/optim/schedule.h"
 #include "train/training_set.h"
 
-namespace svnet {
+namespace svnet::train {
 
 struct TrainerOptions {
   Index epochs = 10;
@@ -32,13 +32,13 @@ class Trainer {
           Communicator& communicator = SingleProcess::shared());
 
   /// The state before the first step.
-  Checkpoint initial_state(Parameters parameters) const;
+  io::Checkpoint initial_state(Parameters parameters) const;
 
   /// Continues from a checkpoint, with the bits of a training that was not interrupted; changes its parameters in
   /// place. After each epoch calls `after_epoch` with the state, and with whether the epoch is the best so far: by
   /// validation loss if there is a validation set, otherwise by training loss. Throws Error if the loss or a gradient
   /// is not finite, or if the processes of the communicator have different parameters.
-  void train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
+  void train(io::Checkpoint state, const std::function<void(const io::Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
 
   /// The shapes of the optimizer's state, which read_checkpoint needs.
@@ -58,4 +58,4 @@ class Trainer {
   Communicator& communicator_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -7,7 +7,7 @@
 #include "train/dataset_rows.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// The score that SV-net learns, scaled to [0, 1] among the views of each pose.
@@ -15,13 +15,13 @@ std::vector<double> scaled_targets(const ViewDataset& dataset, const Scores& sco
   if (target == Target::individual) return scores.scaled;
   std::vector<std::int32_t> pose_of_view;
   for (const View& view : dataset.views) pose_of_view.push_back(static_cast<std::int32_t>(view.pose));
-  return scaled_per_pose(scores.global, pose_of_view);
+  return semantics::scaled_per_pose(scores.global, pose_of_view);
 }
 
 }  // namespace
 
 TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, const Scores& scores,
-                         const std::vector<bool>& categories, Target target, AngleEncoding angles)
+                         const std::vector<bool>& categories, Target target, models::AngleEncoding angles)
     : inputs_(inputs), angles_(angles) {
   check_rows(dataset, scores.paths, "scores");
   const std::vector<double> targets = scaled_targets(dataset, scores, target);
@@ -32,7 +32,7 @@ TrainingSet::TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, c
       Example example{.input = dataset.top_view(view.pose) * inputs.orientations() + orientation,
                       .angles = {},
                       .target = static_cast<float>(targets[i])};
-      encode_angles(angles, symmetric_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
+      encode_angles(angles, view::symmetric_theta_deg(orientation, view.theta_deg), view.phi_deg, example.angles);
       examples_.push_back(example);
     }
   }
@@ -53,4 +53,4 @@ TrainingSet::Batch TrainingSet::batch(std::span<const std::int32_t> examples) co
   return batch;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -8,7 +8,7 @@
 #include "train/config/choices.h"
 #include "train/view_inputs.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The examples that SV-net learns from: (top view of a pose, angles of a view) -> scaled score of the view, in every
 /// orientation of the inputs.
@@ -17,7 +17,7 @@ class TrainingSet {
   /// Takes the views of `categories` that have a score. Throws Error unless the rows of the scores are the dataset's
   /// views. Keeps a reference to the inputs.
   TrainingSet(const ViewDataset& dataset, const ViewInputs& inputs, const Scores& scores,
-              const std::vector<bool>& categories, Target target, AngleEncoding angles);
+              const std::vector<bool>& categories, Target target, models::AngleEncoding angles);
 
   Index size() const { return static_cast<Index>(examples_.size()); }
 
@@ -34,12 +34,12 @@ class TrainingSet {
  private:
   struct Example {
     Index input;
-    float angles[kMostAngles];
+    float angles[models::kMostAngles];
     float target;
   };
   const ViewInputs& inputs_;
-  AngleEncoding angles_;
+  models::AngleEncoding angles_;
   std::vector<Example> examples_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

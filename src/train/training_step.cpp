@@ -6,7 +6,7 @@
 #include "nn/graph/run.h"
 #include "train/finite.h"
 
-namespace svnet {
+namespace svnet::train {
 
 StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& optimizer,
                          const std::vector<Tensor>& inputs, const std::function<Tensor(const Tensor& output)>& loss,
@@ -15,7 +15,7 @@ StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& 
                                 .step = static_cast<std::uint64_t>(optimizer.steps),
                                 .communicator = options.communicator,
                                 .convolution = options.convolution};
-  const Tensor output = train(graph, parameters, inputs, {graph.output()}, context)[0];
+  const Tensor output = run_training(graph, parameters, inputs, {graph.output()}, context)[0];
   const Tensor loss_value = loss(output);
   const auto check_step = [&](bool finite, const char* what) {
     check(finite, "[", options.task, "] ", what, " is not finite at step ", optimizer.steps,
@@ -30,4 +30,4 @@ StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& 
   return {output, loss_value.item()};
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -9,7 +9,7 @@
 #include "nn/kernels/convolution_choice.h"
 #include "nn/optim/optimizer.h"
 
-namespace svnet {
+namespace svnet::train {
 
 struct StepOptions {
   const char* task = "training";  ///< begins error messages
@@ -33,4 +33,4 @@ StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& 
                          const std::vector<Tensor>& inputs, const std::function<Tensor(const Tensor& output)>& loss,
                          const StepOptions& options);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "base/random.h"
 
-namespace svnet {
+namespace svnet::train {
 
 std::vector<bool> validation_categories(const std::vector<bool>& held_out, const Config& config) {
   std::vector<std::int32_t> candidates;
@@ -20,4 +20,4 @@ std::vector<bool> validation_categories(const std::vector<bool>& held_out, const
   return chosen;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -7,7 +7,7 @@
 #include "train/dataset_rows.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 constexpr Index kBatch = 16;
@@ -31,7 +31,7 @@ Tensor FeatureInputs::batch(std::span<const Index> views) const {
   return batch;
 }
 
-PictureInputs::PictureInputs(const ViewDataset& dataset, const Preprocessing& preprocessing,
+PictureInputs::PictureInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
                              std::shared_ptr<const Inference> frozen, const Options& options)
     : dataset_(dataset),
       preprocessing_(preprocessing),
@@ -57,7 +57,7 @@ Tensor PictureInputs::compute(std::span<const Index> inputs) const {
       const Index input = inputs[static_cast<std::size_t>(i)], view = input / options_.orientations;
       if (view != prepared) {
         const auto& path = dataset_.views[static_cast<std::size_t>(view)].path;
-        prepare(preprocessing_, read_image(dataset_.root / path, dataset_.exif_orientation), as_taken.data());
+        prepare(preprocessing_, io::read_image(dataset_.root / path, dataset_.exif_orientation), as_taken.data());
         prepared = view;
       }
       float* to = pixels.data<float>() + i * preprocessing_.size();
@@ -65,7 +65,7 @@ Tensor PictureInputs::compute(std::span<const Index> inputs) const {
       if (orientation == 0)
         std::copy(as_taken.begin(), as_taken.end(), to);  // which need not be square
       else
-        apply_symmetry(orientation, preprocessing_.width, as_taken.data(), to);
+        view::apply_symmetry(orientation, preprocessing_.width, as_taken.data(), to);
     }
   });
   return (frozen_ ? frozen_->run({pixels}) : pixels).reshaped(batched(count, shape()));
@@ -109,4 +109,4 @@ void PictureInputs::keep(const std::vector<Index>& views, const Messages& messag
     kept_row_[static_cast<std::size_t>(inputs[i])] = static_cast<Index>(i);
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

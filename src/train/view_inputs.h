@@ -9,7 +9,7 @@
 #include "models/preprocessing.h"
 #include "nn/runtime/inference.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The first input of a trained graph, for every view of a dataset in N orientations. Input view · N + orientation
 /// belongs to that view and orientation.
@@ -45,8 +45,8 @@ class PictureInputs : public ViewInputs {
   };
   /// `frozen` empty: the inputs are the pixels. Keeps a reference to the dataset. Throws Error if images must be square
   /// and are not.
-  PictureInputs(const ViewDataset& dataset, const Preprocessing& preprocessing, std::shared_ptr<const Inference> frozen,
-                const Options& options);
+  PictureInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
+                std::shared_ptr<const Inference> frozen, const Options& options);
   int orientations() const override { return options_.orientations; }
   Shape shape() const override;
   Tensor batch(std::span<const Index> inputs) const override;
@@ -59,11 +59,11 @@ class PictureInputs : public ViewInputs {
   Tensor compute(std::span<const Index> inputs) const;
 
   const ViewDataset& dataset_;
-  Preprocessing preprocessing_;
+  models::Preprocessing preprocessing_;
   std::shared_ptr<const Inference> frozen_;
   Tensor kept_{};
   Options options_;
   std::vector<Index> kept_row_;  // of each input; -1: not kept
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

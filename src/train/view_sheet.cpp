@@ -6,7 +6,7 @@
 #include "image/resize.h"
 #include "io/images/image_file.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 constexpr Index kGroups = 4;  // in a line, and objects of a category
@@ -25,8 +25,8 @@ Image view_sheet(const ViewDataset& dataset, std::span<const Index> poses, std::
     const Selector& selector = selectors[column];
     const std::int32_t chosen = selector.view[static_cast<std::size_t>(poses[group])];
     const View& view = dataset.views[static_cast<std::size_t>(chosen)];
-    groups[group].cells[column] = {resized(read_image(dataset.root / view.path, dataset.exif_orientation), kLayout.cell,
-                                           kLayout.cell, Interpolation::bilinear),
+    groups[group].cells[column] = {resized(io::read_image(dataset.root / view.path, dataset.exif_orientation),
+                                           kLayout.cell, kLayout.cell, Interpolation::bilinear),
                                    joined(selector.name, " ", view.phi_deg, ", ", view.theta_deg)};
   });
   std::vector<SheetLine> lines;
@@ -55,4 +55,4 @@ std::vector<Index> sheet_poses(const ViewDataset& dataset, const std::vector<boo
   return poses;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

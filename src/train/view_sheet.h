@@ -5,7 +5,7 @@
 #include "image/image.h"
 #include "train/selectors.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// A contact sheet of views: for each pose a group with the view that each selector chooses, and below each view the
 /// selector's name and the view's elevation and azimuth. Each category begins a line. Reads the images. Requires:
@@ -15,4 +15,4 @@ Image view_sheet(const ViewDataset& dataset, std::span<const Index> poses, std::
 /// The first pose of the first objects of the first `wanted` categories: as many as fit on a sheet.
 std::vector<Index> sheet_poses(const ViewDataset& dataset, const std::vector<bool>& wanted);
 
-}  // namespace svnet
+}  // namespace svnet::train

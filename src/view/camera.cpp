@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::view {
 
 std::string intrinsics_problem(const Intrinsics& camera) {
   if (camera.width <= 0 || camera.height <= 0)
@@ -46,7 +46,8 @@ Eigen::Vector3d outwards(const CameraPose& pose) {
   return {std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)};
 }
 
-Eigen::Isometry3d look_at(const CameraPose& given, double radius_m, const Eigen::Vector3d& centre_m, CameraFrame frame) {
+Eigen::Isometry3d look_at(const CameraPose& given, double radius_m, const Eigen::Vector3d& centre_m,
+                          CameraFrame frame) {
   const std::string problem = pose_problem(given);
   check(problem.empty(), "[view] ", problem);
   const CameraPose pose = clamped_pose(given);
@@ -80,4 +81,4 @@ Eigen::Vector3d deprojected_m(const Intrinsics& camera, double x_px, double y_px
   return {(x_px - camera.cx) / camera.fx * depth_m, (y_px - camera.cy) / camera.fy * depth_m, depth_m};
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

@@ -8,7 +8,7 @@
 
 // Cameras on the half-sphere around an object (docs/camera-convention.md). Lengths are in metres; the world's z axis is
 // vertical.
-namespace svnet {
+namespace svnet::view {
 
 /// A pinhole camera without distortion: pixel (x, y), with (0, 0) in the centre of the upper left pixel, sees the
 /// direction ((x - cx) / fx, (y - cy) / fy, 1) of the optical frame.
@@ -25,9 +25,9 @@ std::string intrinsics_problem(const Intrinsics&);
 ///   paper    z forward, x left, y up; x is horizontal
 ///   optical  z forward, x right, y down, as pixels are counted (ROS REP-103)
 enum class CameraFrame { paper, optical };
-template <>
-inline constexpr auto enum_names<CameraFrame> =
-    std::to_array<EnumName<CameraFrame>>({{CameraFrame::paper, "paper"}, {CameraFrame::optical, "optical"}});
+constexpr auto enum_table(CameraFrame) {
+  return std::to_array<EnumName<CameraFrame>>({{CameraFrame::paper, "paper"}, {CameraFrame::optical, "optical"}});
+}
 /// Throws Error for an unknown name.
 CameraFrame camera_frame_named(const std::string& name);
 
@@ -55,4 +55,4 @@ Eigen::Vector2d projected_px(const Intrinsics&, const Eigen::Vector3d& point_opt
 /// The point of the optical frame with depth z = `depth_m` that appears at the pixel (x, y).
 Eigen::Vector3d deprojected_m(const Intrinsics&, double x_px, double y_px, double depth_m);
 
-}  // namespace svnet
+}  // namespace svnet::view

@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::view {
 namespace {
 
 constexpr double kLowestTheta_deg = -360, kHighestTheta_deg = 720, kLowestPhi_deg = 0, kHighestPhi_deg = 90;
@@ -35,4 +35,4 @@ CameraPose clamped_pose(const CameraPose& pose) {
           std::clamp(pose.phi_deg, kLowestPhi_deg, kHighestPhi_deg)};
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

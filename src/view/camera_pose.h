@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-namespace svnet {
+namespace svnet::view {
 
 /// The direction from the object to the camera: azimuth θ, and elevation φ above the table, in degrees.
 struct CameraPose {
@@ -22,4 +22,4 @@ std::string pose_problem(const CameraPose& pose);
 /// problem.
 CameraPose clamped_pose(const CameraPose& pose);
 
-}  // namespace svnet
+}  // namespace svnet::view

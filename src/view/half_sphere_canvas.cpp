@@ -2,7 +2,7 @@
 
 #include <numbers>
 
-namespace svnet {
+namespace svnet::view {
 namespace {
 
 constexpr Index kSize_px = 512;
@@ -73,4 +73,4 @@ void HalfSphereCanvas::spoke(const Colour& colour, double theta_deg) {
   });
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

@@ -6,7 +6,7 @@
 #include "image/image.h"
 #include "view/camera_pose.h"
 
-namespace svnet {
+namespace svnet::view {
 
 using Colour = std::array<double, 3>;  // red, green and blue in [0, 255]
 
@@ -38,4 +38,4 @@ class HalfSphereCanvas {
   Image image_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::view

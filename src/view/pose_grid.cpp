@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::view {
 
 std::vector<CameraPose> paper_grid() {
   std::vector<CameraPose> poses;
@@ -31,4 +31,4 @@ std::vector<CameraPose> fibonacci_half_sphere(Index count, double lowest_phi_deg
   return poses;
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

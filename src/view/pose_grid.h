@@ -4,7 +4,7 @@
 #include "base/index.h"
 #include "view/camera_pose.h"
 
-namespace svnet {
+namespace svnet::view {
 
 /// The paper's 22 camera poses: elevations 45°, 60° and 75°, at each the azimuths 0°, 45°, … 315° without 270°, from
 /// where the camera would see the robot's base; then the top view (90°, 90°). Sorted by elevation, then azimuth.
@@ -15,4 +15,4 @@ std::vector<CameraPose> paper_grid();
 /// is positive and lowest_phi_deg is in [0, 90).
 std::vector<CameraPose> fibonacci_half_sphere(Index count, double lowest_phi_deg);
 
-}  // namespace svnet
+}  // namespace svnet::view

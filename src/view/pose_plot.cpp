@@ -2,7 +2,7 @@
 
 #include "view/half_sphere_canvas.h"
 
-namespace svnet {
+namespace svnet::view {
 
 Image pose_plot(std::span<const CameraPose> poses, const std::vector<bool>& reachable) {
   constexpr Colour kDot{33, 145, 140}, kOutline{40, 40, 40}, kEmpty{255, 255, 255};
@@ -15,4 +15,4 @@ Image pose_plot(std::span<const CameraPose> poses, const std::vector<bool>& reac
   return canvas.take();
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

@@ -6,7 +6,7 @@
 
 #include "view/camera.h"
 
-namespace svnet {
+namespace svnet::view {
 
 Reachable listed_poses(std::vector<CameraPose> poses, double tolerance_deg) {
   // The chord, because the arc's cosine has no digits left for small angles.
@@ -17,4 +17,4 @@ Reachable listed_poses(std::vector<CameraPose> poses, double tolerance_deg) {
   };
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

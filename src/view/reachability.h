@@ -5,7 +5,7 @@
 
 #include "view/camera_pose.h"
 
-namespace svnet {
+namespace svnet::view {
 
 /// Whether the robot can bring its camera to a camera pose, whose optical frame is `camera_to_world`. An
 /// inverse-kinematics solver can be used here.
@@ -14,4 +14,4 @@ using Reachable = std::function<bool(const CameraPose&, const Eigen::Isometry3d&
 /// True for poses whose direction is at most `tolerance_deg` away from that of a listed one.
 Reachable listed_poses(std::vector<CameraPose> poses, double tolerance_deg = 0.5);
 
-}  // namespace svnet
+}  // namespace svnet::view

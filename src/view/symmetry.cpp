@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace svnet {
+namespace svnet::view {
 
 void apply_symmetry(int symmetry, Index side, const float* from, float* to) {
   const Index end = side - 1;
@@ -26,4 +26,4 @@ double symmetric_theta_deg(int symmetry, double theta_deg) {
   return turned < 360 ? turned : 0;  // a tiny negative angle is rounded to 360
 }
 
-}  // namespace svnet
+}  // namespace svnet::view

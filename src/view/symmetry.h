@@ -1,7 +1,7 @@
 #pragma once
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::view {
 
 /// The symmetries of a square top image: it can be mirrored and turned by quarter turns. Turning the image turns the
 /// object, and with it the azimuths of all its views, so each symmetry gives another training example.
@@ -17,4 +17,4 @@ void apply_symmetry(int symmetry, Index side, const float* from, float* to);
 /// image is an azimuth of 0 or 180 degrees, as in a top view 90_90 (docs/camera-convention.md).
 double symmetric_theta_deg(int symmetry, double theta_deg);
 
-}  // namespace svnet
+}  // namespace svnet::view

@@ -8,11 +8,11 @@ namespace {
 
 enum class Colour { green = 7, red = 3 };
 
-}  // namespace
+constexpr auto enum_table(Colour) {
+  return std::to_array<EnumName<Colour>>({{Colour::red, "red"}, {Colour::green, "green"}});
+}
 
-template <>
-inline constexpr auto svnet::enum_names<Colour> = std::to_array<EnumName<Colour>>({{Colour::red, "red"},
-                                                                                   {Colour::green, "green"}});
+}  // namespace
 
 TEST_CASE("an enum's values are known by the names of its table") {
   CHECK(names_of<Colour>() == std::vector<std::string>{"red", "green"});

@@ -2,4 +2,4 @@
 
 #include "small_model.h"
 
-void write_small_model(const std::string& path) { svnet::write_model(path, small_model()); }
+void write_small_model(const std::string& path) { svnet::io::write_model(path, small_model()); }

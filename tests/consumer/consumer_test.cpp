@@ -18,6 +18,9 @@
 #include "view/pose_grid.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
+using namespace svnet::view;
 namespace fs = std::filesystem;
 
 namespace {
@@ -172,7 +175,8 @@ TEST_CASE("pkg-config, the static library and the components of find_package") {
   CHECK_THAT(output_of(folder, pkg_config + "--modversion svnet"), Catch::StartsWith("0."));
 
   // By pkg-config, shared and static, in C: no flag but pkg-config's.
-  const std::string compile = C_COMPILER " -std=c99 " SANITIZER_FLAG " " CONSUMER_PROJECT "/score.c -o " + folder.path().string();
+  const std::string compile =
+      C_COMPILER " -std=c99 " SANITIZER_FLAG " " CONSUMER_PROJECT "/score.c -o " + folder.path().string();
   const std::string library_folder = prefix.string() + "/" LIBRARY_FOLDER;
   output_of(folder, compile + "/score_shared $(" + pkg_config + "--cflags --libs svnet) -Wl,-rpath," + library_folder);
   output_of(folder, "mkdir " + folder.path().string() + "/only && cp " + library_folder + "/libsvnet.a " +
@@ -186,16 +190,16 @@ TEST_CASE("pkg-config, the static library and the components of find_package") {
     folder.write("project/CMakeLists.txt", source);
     return std::string(CMAKE " -S ") + folder.path().string() + "/project -B " + folder.path().string() +
            "/built -DCMAKE_PREFIX_PATH='" + prefix.string() +
-           "' -DCMAKE_C_COMPILER=" C_COMPILER " -DCMAKE_CXX_COMPILER=" CXX_COMPILER
-           " -DCMAKE_C_FLAGS='" SANITIZER_FLAG "' -DCMAKE_CXX_FLAGS='" SANITIZER_FLAG "'";
+           "' -DCMAKE_C_COMPILER=" C_COMPILER " -DCMAKE_CXX_COMPILER=" CXX_COMPILER " -DCMAKE_C_FLAGS='" SANITIZER_FLAG
+           "' -DCMAKE_CXX_FLAGS='" SANITIZER_FLAG "'";
   };
   output_of(folder, configure("REQUIRED COMPONENTS static", "add_executable(score_cmake " CONSUMER_PROJECT
                                                             "/score.c)\ntarget_link_libraries(score_cmake PRIVATE "
                                                             "svnet::svnet_static)\n") +
                         " && " CMAKE " --build " + folder.path().string() + "/built");
   const std::string folder_name = folder.path().string();
-  compare(folder, {folder_name + "/score_shared", folder_name + "/score_static", folder_name + "/built/score_cmake"}, model,
-          picture, paper_grid());
+  compare(folder, {folder_name + "/score_shared", folder_name + "/score_static", folder_name + "/built/score_cmake"},
+          model, picture, paper_grid());
   for (const std::string program : {"/score_static", "/built/score_cmake"})
     CHECK_THAT(output_of(folder, "ldd " + folder_name + program), !Catch::Contains("libsvnet"));
   CHECK_THAT(output_of(folder, "ldd " + folder_name + "/score_shared"), Catch::Contains("libsvnet.so"));

@@ -10,6 +10,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 using Catch::Contains;
 using namespace std::string_view_literals;
 

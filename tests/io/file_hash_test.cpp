@@ -7,6 +7,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 using Catch::Contains;
 
 TEST_CASE("the hash of a file is the hash of its bytes") {

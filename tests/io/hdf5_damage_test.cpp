@@ -11,6 +11,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 // On damage the HDF5 library leaks what it had decoded, and it allocates as much memory as a file says.
 extern "C" const char* __lsan_default_suppressions() { return "leak:libhdf5"; }

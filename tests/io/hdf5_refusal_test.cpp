@@ -11,6 +11,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 using Catch::Contains;
 
 namespace {

@@ -12,6 +12,7 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
 namespace fs = std::filesystem;
 
 namespace {

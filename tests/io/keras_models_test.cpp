@@ -12,6 +12,8 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
 using Catch::Contains;
 
 namespace {
@@ -47,9 +49,9 @@ std::vector<NamedLayer> layers_of(const std::string& network, bool top) {
     if (node.parameters.empty()) continue;
     layers.push_back({node.name, class_of(node), {}});
     for (const ParameterSpec& spec : node.parameters)
-      layers.back().arrays.push_back(
-          {spec.name, spec.shape, std::vector<float>(static_cast<std::size_t>(element_count(spec.shape)), next++),
-           spec.trainable});
+      layers.back().arrays.push_back({spec.name, spec.shape,
+                                      std::vector<float>(static_cast<std::size_t>(element_count(spec.shape)), next++),
+                                      spec.trainable});
   }
   return layers;
 }
@@ -65,8 +67,8 @@ class LegacyFile {
   explicit LegacyFile(const std::filesystem::path& path) : file_(Hdf5File::create(path)) {}
 
   void add(const NamedLayer& layer) { add_group(layer.name, {layer}, 0); }
-  /// A model that is a layer of the model, as Keras lists it: first the arrays that can be trained, then the others. The
-  /// first `frozen` layers cannot be trained.
+  /// A model that is a layer of the model, as Keras lists it: first the arrays that can be trained, then the others.
+  /// The first `frozen` layers cannot be trained.
   void add_group(const std::string& name, const std::vector<NamedLayer>& layers, std::size_t frozen) {
     Texts names;
     file_.create_group("model_weights/" + name);
@@ -202,7 +204,8 @@ TEST_CASE("two models that fit are refused by their names, and one that does not
     file.add_group("right", layers, 0);
     file.close();
   }
-  CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""), Contains("w.h5: holds 2 models that fit ('left', 'right')"));
+  CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""),
+                    Contains("w.h5: holds 2 models that fit ('left', 'right')"));
   layers.pop_back();
   {
     LegacyFile file(path);
@@ -210,6 +213,5 @@ TEST_CASE("two models that fit are refused by their names, and one that does not
     file.add(dense("dense", 1024, 5));
     file.close();
   }
-  CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""),
-                    Contains("the model needs 54; missing: conv_pw_13_bn"));
+  CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""), Contains("the model needs 54; missing: conv_pw_13_bn"));
 }

@@ -14,6 +14,8 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
 
 namespace {
 
@@ -52,8 +54,8 @@ TEST_CASE("a model is read with the same bits") {
   const Tensor image = Tensor::full({1, 96, 96, 3}, 0.5), angles = Tensor::full({1, 3}, 0.25);
   const auto score = [&](const Model& m) {
     const Tensor features =
-        infer(m.backbone_graph, m.backbone_parameters, {image}, {m.backbone_graph.find(m.backbone_output)})[0];
-    return infer(m.head, m.head_parameters, {features, angles}, {m.head.output()})[0];
+        run_inference(m.backbone_graph, m.backbone_parameters, {image}, {m.backbone_graph.find(m.backbone_output)})[0];
+    return run_inference(m.head, m.head_parameters, {features, angles}, {m.head.output()})[0];
   };
   CHECK(equal(score(model), score(back)));
 }

@@ -6,6 +6,8 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::view;
 
 TEST_CASE("poses are read from CSV") {
   const TemporaryFolder folder;

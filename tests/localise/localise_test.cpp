@@ -14,6 +14,8 @@
 #include "simulation/sculptor.h"
 
 using namespace svnet;
+using namespace svnet::localise;
+using namespace svnet::simulation;
 
 namespace {
 
@@ -43,8 +45,8 @@ RgbdPicture picture(const Mesh* mesh, double x_m, double y_m, float exposure, st
 }
 
 LocalisedObject find(const RgbdPicture& before, const RgbdPicture& after, const LocaliseOptions& options = {}) {
-  return localise(overview_camera(), overview_camera_to_world(), {before.rgb, before.depth}, {after.rgb, after.depth},
-                  options);
+  return localise::locate(overview_camera(), overview_camera_to_world(), {before.rgb, before.depth},
+                          {after.rgb, after.depth}, options);
 }
 
 std::string refusal(const RgbdPicture& before, const RgbdPicture& after) {
@@ -145,9 +147,9 @@ TEST_CASE("exchanged images and a camera upside down are refused") {
   const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0.05, 0, 1, 4);
   CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the pictures of the table and of the object "
                                                      "exchanged?"));
-  CHECK_THROWS_WITH(
-      localise(overview_camera(), Eigen::Isometry3d::Identity(), {before.rgb, before.depth}, {after.rgb, after.depth}),
-      Catch::StartsWith("[localise] the camera looks upwards"));
+  CHECK_THROWS_WITH(localise::locate(overview_camera(), Eigen::Isometry3d::Identity(), {before.rgb, before.depth},
+                                     {after.rgb, after.depth}),
+                    Catch::StartsWith("[localise] the camera looks upwards"));
 }
 
 TEST_CASE("images of another size than the camera's are refused") {
@@ -255,7 +257,7 @@ RgbdPicture scaled_depth(RgbdPicture picture, float factor, double unit_m) {
 std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdPicture& before, const RgbdPicture& after,
                          const LocaliseOptions& options = {}) {
   try {
-    localise(overview_camera(), camera_to_world, {before.rgb, before.depth}, {after.rgb, after.depth}, options);
+    localise::locate(overview_camera(), camera_to_world, {before.rgb, before.depth}, {after.rgb, after.depth}, options);
   } catch (const std::exception& error) {
     return error.what();
   }

@@ -11,6 +11,7 @@
 #include "nn/runtime/folding.h"
 
 using namespace svnet;
+using namespace svnet::models;
 using test::relative_distance;
 
 namespace {
@@ -69,9 +70,9 @@ TEST_CASE("folding batch norms and activations changes only rounding") {
   const Tensor x = pictures(2, 64);
   for (NodeId output = 1; output <= graph.output(); ++output) {
     const FoldedGraph fast = folded(graph, parameters, output);
-    const Tensor actual = infer(fast.graph, fast.parameters, {x}, {fast.graph.output()})[0];
+    const Tensor actual = run_inference(fast.graph, fast.parameters, {x}, {fast.graph.output()})[0];
     INFO(graph.node(output).name);
-    CHECK(relative_distance(actual, infer(graph, parameters, {x}, {output})[0]) <= 2e-5);
+    CHECK(relative_distance(actual, run_inference(graph, parameters, {x}, {output})[0]) <= 2e-5);
   }
   CHECK(folded(graph, parameters, graph.output()).graph.nodes().size() < graph.nodes().size() * 2 / 3);
 }
@@ -86,7 +87,7 @@ TEST_CASE("compiled networks agree with plain operations, at every layer") {
     const Tensor x = pictures(2, size);
     for (NodeId output = 1; output <= graph.output(); output += small ? 1 : 7) {
       const Inference compiled(graph, parameters, output);
-      const Tensor expected = infer(graph, parameters, {x}, {output})[0];
+      const Tensor expected = run_inference(graph, parameters, {x}, {output})[0];
       const Tensor actual = compiled.run({x});
       INFO(kind.name << ", layer " << graph.node(output).name);
       REQUIRE(actual.shape() == expected.shape());

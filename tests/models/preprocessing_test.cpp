@@ -8,6 +8,7 @@
 #include "base/sha256.h"
 
 using namespace svnet;
+using namespace svnet::models;
 
 TEST_CASE("preprocess gives Keras' bits for every grey level") {
   std::vector<std::uint8_t> rgb;

@@ -13,6 +13,7 @@
 #include "views_on_disk.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 namespace {
 

@@ -20,12 +20,12 @@ inline void write_views(const TemporaryFolder& folder, int categories, int objec
       for (int v = 0; v + 1 < views; ++v)
         folder.write(pose + std::to_string(kPhis[v / 7]) + "_" + std::to_string(kThetas[v % 7]) + ".png", pose);
     }
-  const ViewDataset dataset = read_view_dataset(folder.path() / "data");
+  const ViewDataset dataset = io::read_view_dataset(folder.path() / "data");
   Features features{{.backbone = "none",
                      .output = "none",
                      .preprocessing = "none",
                      .weights_sha256 = "none",
-                     .dataset_fingerprint = fingerprint(dataset, Parallel::shared()),
+                     .dataset_fingerprint = io::fingerprint(dataset, Parallel::shared()),
                      .input_fingerprint = "made for a test"},
                     static_cast<Index>(dataset.views.size()),
                     dimension,
@@ -42,7 +42,7 @@ inline void write_views(const TemporaryFolder& folder, int categories, int objec
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
-  write_features(folder.path() / "features.h5", features);
+  io::write_features(folder.path() / "features.h5", features);
 }
 
 }  // namespace svnet

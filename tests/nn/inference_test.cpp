@@ -119,7 +119,8 @@ TEST_CASE("a compiled graph computes its layers, for any output layer") {
     for (NodeId output = 0; output <= graph.output(); ++output) {
       INFO("output " << graph.node(output).name << ", convolution " << static_cast<int>(convolution));
       const Inference compiled(graph, parameters, output, {.convolution = convolution});
-      CHECK(relative_distance(compiled.run({kImages}), infer(graph, parameters, {kImages}, {output})[0]) <= 5e-6);
+      CHECK(relative_distance(compiled.run({kImages}), run_inference(graph, parameters, {kImages}, {output})[0]) <=
+            5e-6);
     }
 }
 
@@ -152,7 +153,7 @@ TEST_CASE("compiled squeeze and excitation computes its layers, for any output l
   const Parameters parameters = drawn(graph);
   for (NodeId output = 1; output <= graph.output(); ++output) {
     INFO("output " << graph.node(output).name);
-    const Tensor expected = infer(graph, parameters, {kImages}, {output})[0];
+    const Tensor expected = run_inference(graph, parameters, {kImages}, {output})[0];
     const Tensor actual = Inference(graph, parameters, output).run({kImages});
     CHECK(actual.shape() == expected.shape());
     CHECK(relative_distance(actual, expected) <= 5e-6);
@@ -233,7 +234,7 @@ TEST_CASE("an option forces a kind of convolution in training, too") {
   graph.add("conv", Conv2dLayer{.filters = 16, .kh = 3, .kw = 3}, {graph.input("image", {8, 8, 16})});
   Parameters parameters = initial_parameters(graph, 1);
   const auto step = [&](kernels::Convolution convolution) {
-    return train(graph, parameters, {x}, {graph.output()}, {.convolution = convolution})[0];
+    return run_training(graph, parameters, {x}, {graph.output()}, {.convolution = convolution})[0];
   };
   CHECK_FALSE(same_bits(step(kernels::Convolution::direct), step(kernels::Convolution::winograd)));
 }

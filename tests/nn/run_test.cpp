@@ -51,7 +51,7 @@ TEST_CASE("inference runs the layers with the moving statistics and without drop
   const Tensor score = ops::sigmoid(ops::bias_add(ops::dense(joined, p("score/kernel")), p("score/bias")));
 
   const auto results =
-      infer(graph, parameters, {kImages, kAngles}, {graph.output(), graph.find("norm"), graph.output()});
+      run_inference(graph, parameters, {kImages, kAngles}, {graph.output(), graph.find("norm"), graph.output()});
   REQUIRE(results.size() == 3);
   CHECK(same_bits(results[0], score));
   CHECK(same_bits(results[1], norm));
@@ -63,11 +63,11 @@ TEST_CASE("inference records nothing, training does until its tape has run") {
   Parameters parameters = initial_parameters(graph, 3, DType::f64);
   const Tensor images = kImages.clone();
   const Tensor wanting = kAngles.as_parameter();
-  CHECK_FALSE(infer(graph, parameters, {images, wanting}, {graph.output()})[0].wants_gradient());
+  CHECK_FALSE(run_inference(graph, parameters, {images, wanting}, {graph.output()})[0].wants_gradient());
   CHECK(images.unique());
   CHECK(parameters.at("conv/kernel").unique());
 
-  Tensor score = train(graph, parameters, {images, kAngles}, {graph.output()}, {})[0];
+  Tensor score = run_training(graph, parameters, {images, kAngles}, {graph.output()}, {})[0];
   CHECK(score.wants_gradient());
   CHECK_FALSE(images.unique());
   autograd::GradientMap gradients;
@@ -83,7 +83,7 @@ TEST_CASE("training uses the batch's statistics, moves the moving ones and drops
   Parameters parameters = initial_parameters(graph, 3, DType::f64);
   const NodeId norm = graph.find("norm"), drop = graph.find("drop");
   const auto step = [&](std::uint64_t number) {
-    return train(graph, parameters, {kImages, kAngles}, {norm, drop}, {.seed = 9, .step = number});
+    return run_training(graph, parameters, {kImages, kAngles}, {norm, drop}, {.seed = 9, .step = number});
   };
   const auto first = step(0), again = step(0), second = step(1);
   double sum = 0, squares = 0;  // of channel 0
@@ -103,7 +103,7 @@ TEST_CASE("two dropout layers of one step drop different elements") {
   graph.add("a", DropoutLayer{}, {x});
   graph.add("b", DropoutLayer{}, {x});
   Parameters parameters;
-  const auto y = train(graph, parameters, {Tensor::full({1, 1000}, 1)}, {1, 2}, {});
+  const auto y = run_training(graph, parameters, {Tensor::full({1, 1000}, 1)}, {1, 2}, {});
   CHECK_FALSE(same_bits(y[0], y[1]));
 }
 
@@ -116,11 +116,11 @@ TEST_CASE("values are released once their last reader has run") {
   const Tensor input = Tensor::full({1, kSize}, 1);
   const std::size_t value = kSize * sizeof(float), before = bytes_in_use();
   reset_peak();
-  infer(graph, parameters, {input}, {x});
+  run_inference(graph, parameters, {input}, {x});
   CHECK(peak_bytes() - before >= 2 * value);
   CHECK(peak_bytes() - before < 3 * value);
   reset_peak();
-  const auto kept = train(graph, parameters, {input.as_parameter()}, {x}, {});
+  const auto kept = run_training(graph, parameters, {input.as_parameter()}, {x}, {});
   CHECK(bytes_in_use() - before >= 20 * value);
   autograd::GradientMap gradients;
   autograd::backward(kept[0], gradients, Tensor::full({1, kSize}, 1));
@@ -130,7 +130,9 @@ TEST_CASE("values are released once their last reader has run") {
 TEST_CASE("running says which inputs do not fit") {
   const Graph graph = small_graph();
   const Parameters parameters = initial_parameters(graph, 3, DType::f64);
-  const auto run = [&](const std::vector<Tensor>& inputs) { infer(graph, parameters, inputs, {graph.output()}); };
+  const auto run = [&](const std::vector<Tensor>& inputs) {
+    run_inference(graph, parameters, inputs, {graph.output()});
+  };
   CHECK_THROWS_WITH(run({kImages}), "[graph] takes 2 inputs, got 1");
   CHECK_THROWS_WITH(run({kImages, {}}), "[graph] input 'angles' is empty");
   CHECK_THROWS_WITH(run({kImages, Tensor::zeros({4, 3}, DType::f64)}), "[graph] input 'angles' expects Nx2, got 4x3");
@@ -141,5 +143,5 @@ TEST_CASE("running says which inputs do not fit") {
 TEST_CASE("an input that no wanted layer reads is not checked") {
   const Graph graph = small_graph();
   const Parameters parameters = initial_parameters(graph, 3, DType::f64);
-  CHECK(infer(graph, parameters, {kImages, {}}, {graph.find("pool")})[0].shape() == Shape{4, 4});
+  CHECK(run_inference(graph, parameters, {kImages, {}}, {graph.find("pool")})[0].shape() == Shape{4, 4});
 }

@@ -133,14 +133,14 @@ TEST_CASE("initialisers and training steps of a network give the same bits for a
     std::vector<Tensor> seen;
     for (std::uint64_t step = 0; step < 3; ++step) {
       autograd::GradientMap gradients;
-      const Tensor logits = train(graph, parameters, {images}, {graph.output()}, {.seed = 3, .step = step})[0];
+      const Tensor logits = run_training(graph, parameters, {images}, {graph.output()}, {.seed = 3, .step = step})[0];
       autograd::backward(ops::softmax_cross_entropy(logits, {0, 1, 2, 3, 0, 1}), gradients);
       optimizer->step(gradients, 1e-2);
       seen.push_back(logits.detached());
       for (const Tensor& w : weights) seen.push_back(gradients.of(w));
     }
     for (const auto& [name, value] : parameters.items()) seen.push_back(value);
-    seen.push_back(infer(graph, parameters, {images}, {graph.output()})[0]);
+    seen.push_back(run_inference(graph, parameters, {images}, {graph.output()})[0]);
     return seen;
   });
 }

@@ -5,6 +5,8 @@
 #include <limits>
 
 using namespace svnet;
+using namespace svnet::predict;
+using namespace svnet::view;
 
 namespace {
 

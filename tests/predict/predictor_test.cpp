@@ -12,6 +12,10 @@
 #include "view/symmetry.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
+using namespace svnet::predict;
+using namespace svnet::view;
 
 namespace {
 
@@ -19,14 +23,15 @@ namespace {
 Tensor plain_features(const Model& model, const Image& image) {
   Tensor batch = Tensor::empty({1, model.preprocessing.height, model.preprocessing.width, 3});
   prepare(model.preprocessing, image, batch.data<float>());
-  return infer(model.backbone_graph, model.backbone_parameters, {batch},
-               {model.backbone_graph.find(model.backbone_output)})[0];
+  return run_inference(model.backbone_graph, model.backbone_parameters, {batch},
+                       {model.backbone_graph.find(model.backbone_output)})[0];
 }
 
 double plain_score(const Model& model, const Tensor& features, const CameraPose& pose) {
   Tensor angles = Tensor::empty({1, angle_count(model.angles)});
   encode_angles(model.angles, pose.theta_deg, pose.phi_deg, angles.data<float>());
-  return infer(model.head, model.head_parameters, {features, angles}, {model.head.output()})[0].data<float>()[0];
+  return run_inference(model.head, model.head_parameters, {features, angles}, {model.head.output()})[0]
+      .data<float>()[0];
 }
 
 std::vector<CameraPose> many_poses() {

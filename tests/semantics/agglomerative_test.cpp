@@ -14,6 +14,7 @@
 #include "semantics/random_points.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

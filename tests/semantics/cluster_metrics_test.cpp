@@ -10,6 +10,7 @@
 #include "semantics/clustering_fixtures.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

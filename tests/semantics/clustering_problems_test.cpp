@@ -11,6 +11,7 @@
 #include "semantics/exact_expectation.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

@@ -8,6 +8,7 @@
 #include "semantics/random_points.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

@@ -6,6 +6,7 @@
 #include "semantics/agglomerative.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 void SmallDataset::add(std::int64_t of_category, std::int64_t of_object, std::int64_t of_pose, Index views) {
   category.insert(category.end(), views, of_category);

@@ -32,5 +32,5 @@ struct ExactScores {
 };
 
 /// The expected score of each view over the problems that contain it; Ward linkage.
-ExactScores exact_scores(const svnet::DistanceMatrix& distances, const std::vector<WeightedProblem>& problems,
-                         svnet::Singletons singletons);
+ExactScores exact_scores(const svnet::semantics::DistanceMatrix& distances,
+                         const std::vector<WeightedProblem>& problems, svnet::semantics::Singletons singletons);

@@ -10,6 +10,7 @@
 #include "semantics/random_points.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

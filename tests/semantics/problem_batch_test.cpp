@@ -11,6 +11,7 @@
 #include "semantics/random_points.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

@@ -20,9 +20,9 @@ inline std::vector<float> random_points(svnet::Index n, svnet::Index dimension, 
   return points;
 }
 
-inline svnet::DistanceMatrix distances_of(const std::vector<float>& points, svnet::Index dimension) {
-  return svnet::squared_distances(points.data(), static_cast<svnet::Index>(points.size()) / dimension, dimension,
-                                  svnet::Parallel::shared());
+inline svnet::semantics::DistanceMatrix distances_of(const std::vector<float>& points, svnet::Index dimension) {
+  return svnet::semantics::squared_distances(points.data(), static_cast<svnet::Index>(points.size()) / dimension,
+                                             dimension, svnet::Parallel::shared());
 }
 
 /// 0, 1, …, n - 1.

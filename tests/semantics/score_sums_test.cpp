@@ -8,6 +8,7 @@
 #include "base/random.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
 
 namespace {
 

@@ -6,12 +6,13 @@
 
 /// What a mesh looks like without light: means over its surface.
 struct MeshLook {
-  svnet::Vec3 srgb = svnet::Vec3::Zero();  // of the sRGB levels, [0, 255]
-  float metal = 0;                         // share of the surface
+  svnet::simulation::Vec3 srgb = svnet::simulation::Vec3::Zero();  // of the sRGB levels, [0, 255]
+  float metal = 0;                                                 // share of the surface
 };
 
-inline MeshLook look_of(const svnet::Mesh& mesh) {
+inline MeshLook look_of(const svnet::simulation::Mesh& mesh) {
   using namespace svnet;
+  using namespace svnet::simulation;
   constexpr int kSteps = 8;  // along each side of a triangle
   MeshLook look;
   double area = 0;

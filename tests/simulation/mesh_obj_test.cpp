@@ -9,6 +9,8 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::simulation;
 namespace fs = std::filesystem;
 
 namespace {

@@ -7,6 +7,7 @@
 
 int main(int argc, char** argv) {
   using namespace svnet;
+  using namespace svnet::simulation;
   for (int i = 1; i < argc; ++i) {
     nlohmann::json line{{"file", argv[i]}, {"warnings", nlohmann::json::array()}};
     try {

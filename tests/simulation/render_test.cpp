@@ -10,6 +10,9 @@
 #include "simulation/texture.h"
 
 using namespace svnet;
+using namespace svnet::localise;
+using namespace svnet::simulation;
+using namespace svnet::view;
 
 namespace {
 
@@ -200,9 +203,9 @@ TEST_CASE("views show a localised object completely, and about one of 22 views i
     const Mesh mesh = catalogue_object(category, 1, 1);
     const PosedObject posed = pose_object(mesh, 0, 11, 5);
     const Overview overview = capture_overview(posed, 11, 5);
-    const LocalisedObject object =
-        localise(overview_camera(), overview_camera_to_world(), {overview.background.rgb, overview.background.depth},
-                 {overview.current.rgb, overview.current.depth});
+    const LocalisedObject object = localise::locate(overview_camera(), overview_camera_to_world(),
+                                                    {overview.background.rgb, overview.background.depth},
+                                                    {overview.current.rgb, overview.current.depth});
     const Scene scene(&mesh, posed.object_to_world, posed.setting);
     for (std::size_t view = 0; view < posed.views.size(); view += 4) {
       const Shot shot = capture_view(posed, scene, object, 64, 11, 5, view).shot;

@@ -10,6 +10,7 @@
 #include "workplace.h"
 
 using namespace svnet;
+using namespace svnet::io;
 namespace fs = std::filesystem;
 
 namespace {

@@ -12,6 +12,7 @@
 #include "command/command.h"
 
 using namespace svnet;
+using namespace svnet::command;
 
 namespace {
 

@@ -17,6 +17,7 @@
 #include "shell.h"
 
 using namespace svnet;
+using namespace svnet::command;
 
 namespace {
 

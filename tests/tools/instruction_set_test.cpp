@@ -12,6 +12,7 @@
 #include "workplace.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 namespace {
 

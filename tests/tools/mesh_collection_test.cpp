@@ -7,6 +7,7 @@
 #include "shell.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 namespace {
 

@@ -8,6 +8,8 @@
 #include "temporary_folder.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
 
 namespace {
 

@@ -10,6 +10,9 @@
 #include "view/pose_grid.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::predict;
+using namespace svnet::view;
 
 namespace {
 

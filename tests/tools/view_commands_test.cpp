@@ -8,6 +8,7 @@
 #include "shell.h"
 
 using namespace svnet;
+using namespace svnet::io;
 
 namespace {
 

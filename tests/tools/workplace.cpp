@@ -10,6 +10,9 @@
 #include "small_model.h"
 
 namespace svnet {
+using namespace io;
+using namespace models;
+
 namespace {
 
 constexpr const char* kConfig = R"(seed: 3

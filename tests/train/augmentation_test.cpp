@@ -4,6 +4,7 @@
 #include <cmath>
 
 using namespace svnet;
+using namespace svnet::train;
 
 namespace {
 

@@ -11,6 +11,9 @@
 #include "train/config/strict_yaml.h"
 
 using namespace svnet;
+using namespace svnet::models;
+using namespace svnet::semantics;
+using namespace svnet::train;
 
 namespace {
 

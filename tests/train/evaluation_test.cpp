@@ -6,6 +6,8 @@
 #include "train/evaluation_text.h"
 
 using namespace svnet;
+using namespace svnet::semantics;
+using namespace svnet::train;
 
 namespace {
 

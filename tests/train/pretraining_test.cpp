@@ -8,6 +8,9 @@
 #include "small_dataset.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
+using namespace svnet::train;
 
 namespace {
 

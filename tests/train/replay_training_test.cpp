@@ -20,6 +20,9 @@
 #include "nn/runtime/inference.h"
 
 namespace svnet {
+using namespace io;
+using namespace models;
+
 namespace {
 
 constexpr int kSteps = 10;
@@ -99,8 +102,8 @@ void replay(const std::string& name, const Recording& recording, const std::stri
   double largest = 0;
   for (int step = 0; step < kSteps; ++step) {
     const Index batch = step % batches;
-    const Tensor output = train(graph, parameters, inputs(batch), {graph.output()},
-                                {.seed = 0, .step = static_cast<std::uint64_t>(step)})[0];
+    const Tensor output = run_training(graph, parameters, inputs(batch), {graph.output()},
+                                       {.seed = 0, .step = static_cast<std::uint64_t>(step)})[0];
     const Tensor value = loss(output, batch);
     autograd::GradientMap gradients;
     autograd::backward(value, gradients);
@@ -112,7 +115,7 @@ void replay(const std::string& name, const Recording& recording, const std::stri
     largest = std::max(largest, deviation);
   }
 
-  const Tensor found = infer(graph, parameters, inputs(0), {graph.output()})[0];
+  const Tensor found = run_inference(graph, parameters, inputs(0), {graph.output()})[0];
   const Tensor recorded = recording.tensor(results + "inference");
   REQUIRE(found.shape() == recorded.shape());
   double difference = 0;

@@ -20,6 +20,11 @@
 #include "train/view_inputs.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::models;
+using namespace svnet::predict;
+using namespace svnet::train;
+using namespace svnet::view;
 
 namespace {
 
@@ -68,7 +73,9 @@ class Stages {
     write_config(run_);
     return model_stage(run_, features_, scores());
   }
-  std::vector<double> predicted_scores(const Model& model) { return svnet::predicted_scores(run_, features_, model); }
+  std::vector<double> predicted_scores(const Model& model) {
+    return svnet::train::predicted_scores(run_, features_, model);
+  }
   EvaluationTables evaluation(std::uint64_t problems) {
     const std::vector<double> predicted = predicted_scores(trained_model(run_, features_));
     return evaluation_stage(run_, {features_, scores(), predicted}, problems);

@@ -23,7 +23,7 @@ inline void write_small_dataset(const std::filesystem::path& root) {
             image.rgb.push_back(
                 static_cast<std::uint8_t>(texture + (channel == category % 3 ? (telling ? 150 : 30) : category * 9)));
           }
-        write_png(folder / (std::string(view) + ".png"), image);
+        io::write_png(folder / (std::string(view) + ".png"), image);
       }
     }
 }

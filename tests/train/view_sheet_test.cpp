@@ -6,6 +6,8 @@
 #include "small_dataset.h"
 
 using namespace svnet;
+using namespace svnet::io;
+using namespace svnet::train;
 
 TEST_CASE("a contact sheet shows the views that its selectors choose") {
   const TemporaryFolder folder;

@@ -6,6 +6,7 @@
 #include "base/random.h"
 
 using namespace svnet;
+using namespace svnet::view;
 using Eigen::Vector3d;
 
 namespace {

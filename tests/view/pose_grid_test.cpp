@@ -6,6 +6,7 @@
 #include <cmath>
 
 using namespace svnet;
+using namespace svnet::view;
 
 TEST_CASE("the paper's grid has seven azimuths at three elevations, and the top") {
   const std::vector<CameraPose> grid = paper_grid();

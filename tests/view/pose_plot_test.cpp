@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 
 using namespace svnet;
+using namespace svnet::view;
 
 TEST_CASE("poses that can be reached are filled, others are empty") {
   const std::vector<CameraPose> poses{{0, 45}, {90, 45}};

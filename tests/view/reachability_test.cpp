@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 using namespace svnet;
+using namespace svnet::view;
 
 TEST_CASE("listed poses are reachable, up to half a degree of arc and full turns") {
   const Reachable reachable = listed_poses({{0, 45}, {315, 60}, {90, 90}});

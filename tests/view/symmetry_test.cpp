@@ -7,6 +7,7 @@
 #include <vector>
 
 using namespace svnet;
+using namespace svnet::view;
 
 namespace {
 

@@ -4,7 +4,7 @@
 
 #include "command/number_check.h"
 
-namespace svnet {
+namespace svnet::command {
 
 Argument Argument::required() const { return Argument(option_->required()); }
 Argument Argument::value_name(const std::string& name) const { return Argument(option_->type_name(name)); }
@@ -31,4 +31,4 @@ Argument Argument::shows_default(const std::string& text) const { return Argumen
 
 bool Argument::given() const { return !option_->empty(); }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -9,7 +9,7 @@ class App;
 class Option;
 }  // namespace CLI
 
-namespace svnet {
+namespace svnet::command {
 
 /// An argument of a program, as Command::add returns it. Methods change it and return it; copies are the same argument.
 /// CLI11 parses arguments, but takes seconds to compile: only the files of this folder include it.
@@ -48,4 +48,4 @@ class Argument {
   CLI::Option* option_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::command

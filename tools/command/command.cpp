@@ -13,7 +13,7 @@
 #include "command/help_text.h"
 #include "command/interrupt.h"
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 void flush_results() {
@@ -137,4 +137,4 @@ int Command::report(Console& console, const std::string& message, int status, co
   return status;
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

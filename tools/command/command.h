@@ -11,7 +11,7 @@
 #include "command/argument.h"
 #include "command/console.h"
 
-namespace svnet {
+namespace svnet::command {
 
 /// A mistake in the arguments that CLI11 cannot see. The program exits with status 2. Thrown through wrong_usage.
 class UsageError : public Error {
@@ -81,4 +81,4 @@ class Command {
   bool quiet_ = false;
 };
 
-}  // namespace svnet
+}  // namespace svnet::command

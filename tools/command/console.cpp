@@ -12,7 +12,7 @@
 #include "command/interrupt.h"
 #include "io/files/make_folder.h"
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 int terminal_columns() {
@@ -59,7 +59,7 @@ void Console::error(std::string_view text) {
 void Console::log_to(const std::filesystem::path& file) {
   if (verbosity_ == Verbosity::errors_only) return;
   const std::filesystem::path folder = file.parent_path();
-  if (!folder.empty()) make_folder(folder);
+  if (!folder.empty()) io::make_folder(folder);
   log_file_.emplace(file);
 }
 
@@ -105,4 +105,4 @@ bool stderr_is_terminal() {
   return ::isatty(STDERR_FILENO) == 1 && !kind.empty() && kind != "dumb";
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -8,7 +8,7 @@
 #include "command/log_file.h"
 #include "command/progress_text.h"
 
-namespace svnet {
+namespace svnet::command {
 
 /// The output of a command. Results go to stdout; messages, progress and errors go to stderr. On a terminal, progress
 /// is a bar that is redrawn. Elsewhere it is plain lines without control characters: at most one every ten seconds, and
@@ -58,4 +58,4 @@ class Console {
 /// Whether stderr is a terminal that understands ANSI sequences.
 bool stderr_is_terminal();
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -2,7 +2,7 @@
 
 #include <sstream>
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 constexpr std::size_t kColumns = 80, kNameColumns = 30;
@@ -49,4 +49,4 @@ std::string HelpText::make_option_desc(const CLI::Option* option) const {
   return wrapped(text, kColumns - kNameColumns);
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

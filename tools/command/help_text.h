@@ -1,7 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
-namespace svnet {
+namespace svnet::command {
 
 /// The format of --help: at most 80 columns; a value is shown by its name or choices, not by its C++ type; required
 /// options are marked "(required)".
@@ -13,4 +13,4 @@ class HelpText : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -2,7 +2,7 @@
 
 #include <csignal>
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
@@ -37,4 +37,4 @@ void throw_if_interrupted() {
   if (interrupted) throw Interrupted();
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace svnet {
+namespace svnet::command {
 
 /// Thrown in the working thread after SIGINT, SIGTERM or SIGHUP, so that destructors remove incomplete files. It is not
 /// a std::exception, so that no handler for failures catches it.
@@ -13,4 +13,4 @@ void remember_interrupts();
 /// Throws Interrupted if a signal has been remembered.
 void throw_if_interrupted();
 
-}  // namespace svnet
+}  // namespace svnet::command

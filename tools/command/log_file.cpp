@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::command {
 
 LogFile::LogFile(const std::filesystem::path& path) : path_(path), file_(path, std::ios::app) {
   check(file_.is_open(), path_.string(), ": cannot open the log file, check that its folder can be written to");
@@ -23,4 +23,4 @@ void LogFile::write(std::string_view text) {
         ": cannot write the log file: ", errno != 0 ? std::strerror(errno) : "is the disk full?");
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <string_view>
 
-namespace svnet {
+namespace svnet::command {
 
 /// A text file to which lines are appended, each after its local time: "2024-05-31 14:07:59 text". Not thread-safe.
 class LogFile {
@@ -19,4 +19,4 @@ class LogFile {
   std::ofstream file_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::command

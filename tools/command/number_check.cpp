@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 /// `expected`: the words after "must be" in the message.
@@ -33,4 +33,4 @@ CLI::Validator number_between(double low, double high) {
   return number_check(joined(low, " to ", high), [=](double x) { return x >= low && x <= high; });
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -1,7 +1,7 @@
 #pragma once
 #include <CLI/CLI.hpp>
 
-namespace svnet {
+namespace svnet::command {
 
 // Checks of floating-point options, for CLI::Option::check. They refuse NaN and infinities. CLI11's own checks accept
 // NaN and print the largest double if a range has no upper end.
@@ -11,4 +11,4 @@ CLI::Validator non_negative_number();
 /// In [low, high].
 CLI::Validator number_between(double low, double high);
 
-}  // namespace svnet
+}  // namespace svnet::command

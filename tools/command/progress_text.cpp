@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-namespace svnet {
+namespace svnet::command {
 namespace {
 
 template <class... Values>
@@ -61,4 +61,4 @@ std::string progress_bar(const TaskState& state, int columns) {
   return line.substr(0, length);
 }
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -4,7 +4,7 @@
 
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::command {
 
 /// `done` of `total` steps of a task after `seconds`. total 0: unknown.
 struct TaskState {
@@ -27,4 +27,4 @@ std::string final_progress(const TaskState& state);
 /// plain_progress with a bar, shorter than `columns`: "scores  [######----]  58 %, 830/1440, …"
 std::string progress_bar(const TaskState& state, int columns);
 
-}  // namespace svnet
+}  // namespace svnet::command

@@ -16,10 +16,12 @@
 #include "nn/tensor.h"
 
 namespace svnet {
+using io::Hdf5File;
+
 namespace {
 
 std::string describe_features(const std::filesystem::path& file) {
-  const Features f = read_features(file);
+  const Features f = io::read_features(file);
   return joined("features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ",
                 printable(f.backbone), ", layer ", printable(f.output), "\n  preprocessing  ",
                 printable(f.preprocessing), "\n  weights        ", printable(f.weights_sha256), "\n  dataset        ",
@@ -28,7 +30,7 @@ std::string describe_features(const std::filesystem::path& file) {
 }
 
 std::string describe_scores(const std::filesystem::path& file) {
-  const Scores s = read_scores(file);
+  const Scores s = io::read_scores(file);
   const ScoresSummary known = summary(s);
   return joined("semantic scores of ", s.paths.size(), " views\n  problems        ", s.problems, ", seed ", s.seed,
                 "\n  sampler         ", printable(s.sampler), "\n  clustering      ", printable(s.clustering),
@@ -40,11 +42,12 @@ std::string describe_scores(const std::filesystem::path& file) {
 }
 
 std::string describe_snapshot(const std::filesystem::path& file) {
-  const ScoresSnapshot s = read_scores_snapshot(file);
+  const io::ScoresSnapshot s = io::read_scores_snapshot(file);
   return joined("snapshot of semantic scores of ", s.views, " views\n  problems so far ", s.problems);
 }
 
-void add_layer(std::ostringstream& text, const std::string& name, const std::vector<KerasArray>& arrays, Index& count) {
+void add_layer(std::ostringstream& text, const std::string& name, const std::vector<io::KerasArray>& arrays,
+               Index& count) {
   if (arrays.empty()) return;
   text << "\n  " << printable(name) << ":";
   for (const auto& array : arrays) {
@@ -54,17 +57,17 @@ void add_layer(std::ostringstream& text, const std::string& name, const std::vec
 }
 
 std::string describe_weights(const std::filesystem::path& file) {
-  const KerasWeightsFile weights(file);
+  const io::KerasWeightsFile weights(file);
   std::ostringstream layers;
   Index count = 0;
   for (const auto& layer : weights.layers()) add_layer(layers, layer.path, layer.arrays, count);
-  const bool legacy = weights.layout() == KerasLayout::legacy;
+  const bool legacy = weights.layout() == io::KerasLayout::legacy;
   return joined(legacy ? "Keras weights" : "Keras 3 weights", ", ", count,
                 " numbers; layers and shapes in the order of the file:", layers.str());
 }
 
 std::string describe_safetensors(const std::filesystem::path& file) {
-  const SafetensorsFile f(file);
+  const io::SafetensorsFile f(file);
   std::ostringstream text;
   text << "safetensors, " << f.tensors().size() << " tensors";
   for (const auto& [key, value] : f.metadata())

@@ -64,12 +64,12 @@ std::string plan_text(const Inference& network, Index batch) {
 
 std::string backbone_plan(const std::string& name, const std::string& layer, Index batch,
                           const InferenceOptions& options) {
-  const Backbone backbone = random_backbone(name, layer, 1, options);
+  const models::Backbone backbone = models::random_backbone(name, layer, 1, options);
   return joined(name, " to ", backbone.output_name(), "\n", plan_text(backbone.network(), batch));
 }
 
 std::string model_plan(const std::filesystem::path& file, Index batch, const InferenceOptions& options) {
-  const Model model = read_model(file);
+  const Model model = io::read_model(file);
   const Graph& graph = model.backbone_graph;
   const Inference backbone(graph, model.backbone_parameters, graph.find(model.backbone_output), options);
   const Inference head(model.head, model.head_parameters, model.head.output(), options);

@@ -14,7 +14,7 @@
 #include "base/error.h"
 #include "io/files/temporary_name.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ void check_can_be_written(const fs::path& path, const std::vector<fs::path>& oth
           ": cannot be written: the command needs this file for something else; give another name");
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-namespace svnet {
+namespace svnet::io {
 
 /// Replaces the file `path` as a whole: a reader sees the old file or the new one, never a part, even after a power
 /// failure. `write` receives the name of a new, empty file in the same folder, and fills and closes it. The file is
@@ -37,4 +37,4 @@ void check_can_be_written(const std::filesystem::path& path, const std::vector<s
 /// cannot be read or its file system cannot sync folders. Throws Error for a failing disk.
 void make_rename_last(const std::filesystem::path& target);
 
-}  // namespace svnet
+}  // namespace svnet::io

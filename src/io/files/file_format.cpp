@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using namespace std::string_view_literals;
@@ -69,4 +69,4 @@ std::string recognised_instead(const std::filesystem::path& file) {
   return recognised_instead(std::string_view(bytes));
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

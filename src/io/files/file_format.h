@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace svnet {
+namespace svnet::io {
 
 /// What a file seems to be that was expected to be something else, from its first bytes (up to 512 are looked at), with
 /// what to do: ", but a Git LFS pointer; get the file itself by 'git lfs pull'". Empty if nothing is recognised.
@@ -12,4 +12,4 @@ std::string recognised_instead(std::string_view first_bytes);
 /// The same for a file; empty too if it cannot be read.
 std::string recognised_instead(const std::filesystem::path& file);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "base/sha256.h"
 
-namespace svnet {
+namespace svnet::io {
 
 std::string file_sha256(const std::filesystem::path& path) {
   std::error_code ignored;
@@ -24,4 +24,4 @@ std::string file_sha256(const std::filesystem::path& path) {
   return hash.hex();
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

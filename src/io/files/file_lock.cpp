@@ -9,7 +9,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 bool lock(int descriptor) {
@@ -31,4 +31,4 @@ FileLock::FileLock(const std::filesystem::path& path)
 
 FileLock::~FileLock() { ::close(descriptor_); }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-namespace svnet {
+namespace svnet::io {
 
 /// A file that one process at a time may hold (flock). The kernel releases it when its holder ends, even if it is
 /// killed. The file is created if there is none, its contents are not touched, and it is never removed.
@@ -21,4 +21,4 @@ class FileLock {
   bool held_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

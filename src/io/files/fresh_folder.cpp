@@ -11,7 +11,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/temporary_name.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ void FreshFolder::keep() {
   make_rename_last(target_);
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

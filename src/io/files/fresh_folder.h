@@ -1,7 +1,7 @@
 #pragma once
 #include <filesystem>
 
-namespace svnet {
+namespace svnet::io {
 
 /// A new folder that appears as a whole. It is filled under a temporary name (in the same parent folder, beginning with
 /// a dot) and renamed by keep(); without keep() the destructor removes it. Several objects may make the same folder:
@@ -24,4 +24,4 @@ class FreshFolder {
   std::filesystem::path name_, target_, partial_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

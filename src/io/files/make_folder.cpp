@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::io {
 
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
@@ -13,4 +13,4 @@ void make_folder(const std::filesystem::path& folder) {
   check(!error, folder.string(), ": cannot make this folder: ", error.message());
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

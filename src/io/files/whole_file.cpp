@@ -6,7 +6,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::io {
 
 std::string whole_file(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
@@ -26,4 +26,4 @@ std::string whole_file(const std::filesystem::path& path) {
   return contents;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -2,9 +2,9 @@
 #include <filesystem>
 #include <string>
 
-namespace svnet {
+namespace svnet::io {
 
 /// All bytes of a regular file. Throws Error that names it where it cannot be read.
 std::string whole_file(const std::filesystem::path& path);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// Reads bytes of a file from front to back. Throws Error with `message` when a read would pass the end. `message` must
 /// outlive this object.
@@ -37,4 +37,4 @@ class Bytes {
   std::string_view message_;
 };
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -9,7 +9,7 @@
 #include "io/hdf5/datatype.h"
 #include "io/hdf5/global_heap.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 template <class T>
@@ -122,4 +122,4 @@ std::vector<std::string> read_texts(const File& file, const std::string& where, 
   return texts;
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -6,7 +6,7 @@
 
 #include "io/hdf5/file_state.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// Reads all values of a dataset or attribute into `values`, converted to `memory_type`.
 using Reader = std::function<herr_t(hid_t memory_type, void* values)>;
@@ -21,4 +21,4 @@ std::vector<T> read_numbers(const File& file, const std::string& where, hid_t ty
 std::vector<std::string> read_texts(const File& file, const std::string& where, hid_t type, std::uint64_t count,
                                     const Reader& read);
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

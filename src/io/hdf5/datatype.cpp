@@ -5,7 +5,7 @@
 #include "base/error.h"
 #include "io/hdf5/handle.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 /// Whether the type is a float of 16 bits, in either byte order, with a sign, `exponent_bits` and the rest mantissa.
@@ -78,4 +78,4 @@ ElementType element_type(hid_t type) {
   return {Kind::other, size, class_name(type_class)};
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

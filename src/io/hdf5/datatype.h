@@ -3,7 +3,7 @@
 
 #include <hdf5.h>
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 enum class Kind {
   real,
@@ -22,8 +22,8 @@ struct ElementType {
   std::string name;  // for messages: "float32", "string", "compound", …
 };
 
-/// Describes a type of a file. Numbers have the layouts that NumPy knows, or that of bfloat16, in either byte order; all others are
-/// Kind::other.
+/// Describes a type of a file. Numbers have the layouts that NumPy knows, or that of bfloat16, in either byte order;
+/// all others are Kind::other.
 ElementType element_type(hid_t type);
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

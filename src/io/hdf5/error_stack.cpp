@@ -2,7 +2,7 @@
 
 #include "base/text.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 herr_t keep_first(unsigned number, const H5E_error2_t* error, void* text) {
@@ -27,4 +27,4 @@ std::string reason() {
   return text.empty() ? "the HDF5 library gives no reason" : printable(system_message(text));
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -3,7 +3,7 @@
 
 #include <hdf5.h>
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// Keeps the HDF5 library from printing errors of this thread, for the lifetime of the object.
 class Quiet {
@@ -25,4 +25,4 @@ class Quiet {
 /// at once, because the next call of the library clears the message.
 std::string reason();
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -8,7 +8,7 @@
 
 #include "base/text.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 std::string object_place(const std::string& object) {
   return object.empty() ? "its root" : "'" + printable(object) + "'";
@@ -76,4 +76,4 @@ Extent File::extent(hid_t space, const std::string& where) const {
   return extent;
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

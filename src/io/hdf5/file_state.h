@@ -8,7 +8,7 @@
 #include "io/hdf5/error_stack.h"
 #include "io/hdf5/handle.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// The largest memory that a dataset or attribute may need.
 inline constexpr std::uint64_t kLargestBytes = std::uint64_t{1} << 36;
@@ -61,4 +61,4 @@ struct File {
   Extent extent(hid_t space, const std::string& where) const;
 };
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -6,7 +6,7 @@
 
 #include "io/hdf5/bytes.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 constexpr std::uint64_t kHeader = 16;  // of a collection: signature, version, 3 reserved, 8 size
@@ -76,4 +76,4 @@ std::string GlobalHeap::text(const TextReference& reference, const std::string& 
   return std::string(text.begin(), std::find(text.begin(), text.end(), '\0'));
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -9,7 +9,7 @@
 
 #include "io/hdf5/file_state.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// How a dataset or attribute stores a string of variable length, little endian: its length (4 bytes), the address of a
 /// collection of the global heap (8) and the index in that collection (4).
@@ -38,4 +38,4 @@ class GlobalHeap {
   std::map<std::uint64_t, Collection> collections_;
 };
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

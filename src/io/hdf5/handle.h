@@ -3,7 +3,7 @@
 
 #include <hdf5.h>
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 
 /// Owns an HDF5 identifier; a negative one owns nothing.
 class Handle {
@@ -32,4 +32,4 @@ class Handle {
   Close close_ = nullptr;
 };
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

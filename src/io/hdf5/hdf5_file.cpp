@@ -8,7 +8,7 @@
 #include "io/files/file_format.h"
 #include "io/hdf5/file_state.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -135,4 +135,4 @@ std::vector<std::string> Hdf5File::members(const std::string& group) const {
   return names;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

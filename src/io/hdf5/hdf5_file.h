@@ -8,7 +8,7 @@
 
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace hdf5 {
 struct File;  // the open file, private to this folder
 }
@@ -52,8 +52,8 @@ class Hdf5File {
   std::vector<std::string> members(const std::string& group) const;
 
   std::vector<Index> shape(const std::string& dataset) const;
-  /// T: float (from bfloat16, float16, 32 and 64), double (from any float or integer), std::int64_t and std::uint64_t (from
-  /// integers that fit), std::string (from strings of fixed or variable length).
+  /// T: float (from bfloat16, float16, 32 and 64), double (from any float or integer), std::int64_t and std::uint64_t
+  /// (from integers that fit), std::string (from strings of fixed or variable length).
   template <class T>
   Hdf5Array<T> read(const std::string& dataset) const;
 
@@ -86,4 +86,4 @@ class Hdf5File {
   std::unique_ptr<hdf5::File> state_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -4,7 +4,7 @@
 
 #include "io/hdf5/bytes.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 constexpr std::uint64_t kPrefix = 16;  // of a header: version, reserved, 2 messages, 4 references, 4 size, 4 padding
@@ -205,4 +205,4 @@ void check_object_header(const File& file, std::uint64_t address, const std::str
   }
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -4,7 +4,7 @@
 #include "io/hdf5/file_state.h"
 #include "io/hdf5/object_header.h"
 
-namespace svnet::hdf5 {
+namespace svnet::io::hdf5 {
 namespace {
 
 bool is_refused_filter(H5Z_filter_t filter) { return filter != H5Z_FILTER_DEFLATE && filter != H5Z_FILTER_SHUFFLE; }
@@ -125,4 +125,4 @@ Handle File::attribute(const std::string& path, const std::string& attribute_nam
   return handle;
 }
 
-}  // namespace svnet::hdf5
+}  // namespace svnet::io::hdf5

@@ -4,7 +4,7 @@
 #include "io/hdf5/file_state.h"
 #include "io/hdf5/hdf5_file.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using hdf5::Extent;
@@ -108,4 +108,4 @@ template double Hdf5File::number_attribute(const std::string&, const std::string
 template std::int64_t Hdf5File::number_attribute(const std::string&, const std::string&) const;
 template std::uint64_t Hdf5File::number_attribute(const std::string&, const std::string&) const;
 
-}  // namespace svnet
+}  // namespace svnet::io

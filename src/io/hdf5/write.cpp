@@ -5,7 +5,7 @@
 #include "io/hdf5/file_state.h"
 #include "io/hdf5/hdf5_file.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using hdf5::File;
@@ -146,4 +146,4 @@ template void Hdf5File::write_number_attribute(const std::string&, const std::st
 template void Hdf5File::write_number_attribute(const std::string&, const std::string&, std::int64_t);
 template void Hdf5File::write_number_attribute(const std::string&, const std::string&, std::uint64_t);
 
-}  // namespace svnet
+}  // namespace svnet::io

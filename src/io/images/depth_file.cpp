@@ -8,7 +8,7 @@
 #include "io/files/atomic_file.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -58,4 +58,4 @@ void write_grey_png(const fs::path& path, Index height, Index width, std::span<c
   write_atomically(path, encoded_grey_png(path.string(), height, width, levels));
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

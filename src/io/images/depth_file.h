@@ -6,7 +6,7 @@
 
 #include "image/depth_image.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// Reads a depth image: a 16-bit grey PNG, or a NumPy file (.npy) with an array (height, width), with or without
 /// further axes of length 1, in either order and byte order, of floats of 16, 32 or 64 bits or integers of 16, 32
@@ -22,4 +22,4 @@ void write_depth_png(const std::filesystem::path& path, const DepthImage&);
 /// Writes an 8-bit grey PNG; levels (height, width). Throws Error that names `path`.
 void write_grey_png(const std::filesystem::path& path, Index height, Index width, std::span<const std::uint8_t> levels);
 
-}  // namespace svnet
+}  // namespace svnet::io

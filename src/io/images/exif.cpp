@@ -4,7 +4,7 @@
 
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 constexpr std::size_t kExifPrefix = 6;  // "Exif\0\0" before the TIFF file; PNG and most WebP files do without it
@@ -85,4 +85,4 @@ int exif_orientation(Bytes file) {
   return 1;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -70,4 +70,4 @@ void fail_damaged(const std::string& name, const char* kind, const std::string& 
   fail(name, ": is a damaged or incomplete ", kind, " picture (", reason, "); replace the file");
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

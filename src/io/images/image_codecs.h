@@ -12,7 +12,7 @@
 
 // The image formats, and what they share. A decoder takes the contents of a whole file and throws Error unless it can
 // decode all of them. `name` begins the message of every Error. io/images/image_file.h chooses the decoder.
-namespace svnet {
+namespace svnet::io {
 
 using Bytes = std::span<const std::uint8_t>;
 
@@ -62,4 +62,4 @@ Image image_of_size(const std::string& name, Index height, Index width);
 /// Throws the Error of a file that a codec could not decode, with the codec's `reason`.
 [[noreturn]] void fail_damaged(const std::string& name, const char* kind, const std::string& reason);
 
-}  // namespace svnet
+}  // namespace svnet::io

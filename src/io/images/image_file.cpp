@@ -9,7 +9,7 @@
 #include "io/files/atomic_file.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 
 namespace {
 
@@ -48,4 +48,4 @@ void write_png(const std::filesystem::path& path, const Image& image) {
   write_atomically(path, encoded_png(path.string(), image));
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -4,7 +4,7 @@
 #include "base/exif_orientation.h"
 #include "image/image.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// Reads a PNG, JPEG or WebP image as RGB, with the pixels of Pillow's Image.open(path).convert("RGB"): grey becomes
 /// three equal channels, a palette its colours, CMYK and YCCK (JPEG) are converted without a colour profile, and
@@ -31,4 +31,4 @@ int read_exif_orientation(const std::filesystem::path& path);
 /// Writes an 8-bit RGB PNG atomically (io/files/atomic_file.h). Throws Error that names `path`.
 void write_png(const std::filesystem::path& path, const Image& image);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// libjpeg with errors that return here instead of ending the process. A warning that means lost pixels is an error
@@ -110,4 +110,4 @@ Image decode_jpeg(const std::string& name, Bytes file) {
   return image;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -12,7 +12,7 @@
 #include "image/depth_unit.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);
@@ -153,4 +153,4 @@ DepthImage decode_npy_depth(const std::string& name, Bytes file, std::optional<d
   return image;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// libpng with errors that return here and without warnings (most are about colour profiles). It checks the CRC of
@@ -153,4 +153,4 @@ std::string encoded_png(const std::string& name, const Image& image) {
   return encoded(name, image.height, image.width, PNG_FORMAT_RGB, image.rgb.data());
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

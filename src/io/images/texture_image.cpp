@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 std::uint64_t number_at(Bytes file, std::size_t at, std::size_t bytes) {
@@ -148,4 +148,4 @@ Image decode_texture(const std::string& name, Bytes file) {
   return decode_with_stb(name, file, "TGA", tga_bytes);
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

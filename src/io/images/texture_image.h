@@ -3,7 +3,7 @@
 
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// A picture as tools for meshes write textures: PNG, JPEG, WebP, BMP, TGA, TIFF or GIF (its first picture) as RGB;
 /// transparency is dropped. `file` is the whole file, `name` begins messages. The kind is told by the contents, but a
@@ -11,4 +11,4 @@ namespace svnet {
 /// larger than 64 megapixels. Safe to call from several threads.
 Image decode_texture(const std::string& name, Bytes file);
 
-}  // namespace svnet
+}  // namespace svnet::io

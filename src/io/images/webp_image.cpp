@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "io/images/image_codecs.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// The size of the file according to its header: the length of the RIFF chunk and the 8 bytes before it.
@@ -29,4 +29,4 @@ Image decode_webp(const std::string& name, Bytes file) {
   return image;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

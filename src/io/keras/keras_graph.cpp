@@ -6,7 +6,7 @@
 #include "io/keras/keras_match.h"
 #include "nn/graph/keras_order.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// The nodes with parameters that `output` needs, in Keras' order.
@@ -76,9 +76,10 @@ bool is_within(const Graph& graph, const std::vector<NodeId>& order, std::size_t
 
 }  // namespace
 
-Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                             KerasLoadReport* report, const InferenceOptions& options) {
-  const BackboneKind& kind = backbone_kind(name);
+models::Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights,
+                                     const std::string& layer, KerasLoadReport* report,
+                                     const InferenceOptions& options) {
+  const models::BackboneKind& kind = models::backbone_kind(name);
   const KerasWeightsFile file(weights);
   const Graph whole = kind.graph(kind.preprocessing.height, true), base = kind.graph(kind.preprocessing.height, false);
   const std::vector<NodeId> order = weighted_layers(whole, whole.output());
@@ -98,4 +99,4 @@ Backbone read_keras_backbone(const std::string& name, const std::filesystem::pat
   return {kind, graph, parameters, layer, options};
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

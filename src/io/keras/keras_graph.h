@@ -5,7 +5,7 @@
 
 #include "models/backbone.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// Which layers with weights were loaded from a weights file.
 struct KerasLoadReport {
@@ -20,7 +20,8 @@ struct KerasLoadReport {
 ///
 /// Throws Error that names the file and the layer if one is missing, unexpected or of another shape, or has the name of
 /// another layer of the graph.
-Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights, const std::string& layer,
-                             KerasLoadReport* report = nullptr, const InferenceOptions& options = {});
+models::Backbone read_keras_backbone(const std::string& name, const std::filesystem::path& weights,
+                                     const std::string& layer, KerasLoadReport* report = nullptr,
+                                     const InferenceOptions& options = {});
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -5,7 +5,7 @@
 
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// "SeparableConv2D" -> "separable_conv2d", as Keras makes layer names of class names.
@@ -161,4 +161,4 @@ std::vector<KerasMatch> keras_matches(const KerasWeightsFile& file, const Graph&
   return matches;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -8,7 +8,7 @@
 #include "base/finite.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 constexpr char kModelGroup[] = "model_weights";
@@ -190,4 +190,4 @@ std::vector<float> KerasWeightsFile::values(const KerasArray& array) const {
   return values;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

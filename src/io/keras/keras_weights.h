@@ -6,7 +6,7 @@
 #include "base/index.h"
 #include "io/hdf5/hdf5_file.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// Name and shape of an array in a weights file, as Keras wrote them.
 struct KerasArray {
@@ -52,8 +52,8 @@ class KerasWeightsFile {
   KerasLayout layout() const { return layout_; }
   const std::vector<KerasLayer>& layers() const { return layers_; }
 
-  /// The values of an array; bfloat16, float16, float32 and float64 become float32. Throws Error that names the file and the HDF5
-  /// dataset if a value is not finite.
+  /// The values of an array; bfloat16, float16, float32 and float64 become float32. Throws Error that names the file
+  /// and the HDF5 dataset if a value is not finite.
   std::vector<float> values(const KerasArray& array) const;
 
  private:
@@ -62,4 +62,4 @@ class KerasWeightsFile {
   std::vector<KerasLayer> layers_{};
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -6,14 +6,17 @@
 #include "io/models/built_in_weights.h"
 #include "io/tensors/tensor_file.h"
 
-namespace svnet {
+namespace svnet::io {
+using models::Backbone;
+using models::BackboneKind;
+
 namespace {
 
 constexpr const char* kKind = "weights";
 
 Backbone backbone_of(const TensorFile& file, const std::string& name, const std::string& layer, KerasLoadReport* report,
                      const InferenceOptions& options) {
-  const BackboneKind& kind = backbone_kind(name);
+  const BackboneKind& kind = models::backbone_kind(name);
   const auto written_for = file.get<std::string>("backbone");
   check(written_for == name, file.path(), ": holds weights of ", written_for, ", expected weights of ", name);
   const Graph graph = kind.graph(kind.preprocessing.height, false);
@@ -50,7 +53,7 @@ bool has_built_in_weights(const BackboneKind& kind) { return !built_in_weights(k
 
 std::optional<BuiltInBackbone> built_in_backbone(const std::string& name, const std::string& layer,
                                                  const InferenceOptions& options) {
-  if (!has_built_in_weights(backbone_kind(name))) return {};
+  if (!has_built_in_weights(models::backbone_kind(name))) return {};
   const auto contents = built_in_weights(name);
   Sha256 hash;
   hash.update(contents.data(), contents.size());
@@ -66,4 +69,4 @@ std::optional<std::filesystem::path> find_weights(const BackboneKind& kind, cons
   return {};
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

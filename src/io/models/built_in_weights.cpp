@@ -15,11 +15,11 @@ extern "C" {
 [[gnu::visibility("hidden")]] extern const std::byte svnet_tiny_xception_end[];
 }
 
-namespace svnet {
+namespace svnet::io {
 
 std::span<const std::byte> built_in_weights(const std::string& backbone) {
   if (backbone != "tiny_xception") return {};
   return {svnet_tiny_xception_begin, svnet_tiny_xception_end};
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -3,9 +3,9 @@
 #include <span>
 #include <string>
 
-namespace svnet {
+namespace svnet::io {
 
 /// The contents of the backbone's weights file that is part of the program; empty if there is none.
 std::span<const std::byte> built_in_weights(const std::string& backbone);
 
-}  // namespace svnet
+}  // namespace svnet::io

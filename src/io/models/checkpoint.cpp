@@ -4,7 +4,7 @@
 
 #include "io/tensors/tensor_file.h"
 
-namespace svnet {
+namespace svnet::io {
 
 void write_checkpoint(const std::filesystem::path& path, const Checkpoint& checkpoint) {
   TensorFile file;
@@ -43,4 +43,4 @@ std::string read_checkpoint_fingerprint(const std::filesystem::path& path) {
   return TensorFile::read(path, "checkpoint", "optimizer/").get<std::string>("input_fingerprint");
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

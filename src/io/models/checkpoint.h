@@ -5,7 +5,7 @@
 
 #include "nn/graph/parameters.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// The state of training after an epoch: everything that resuming needs.
 struct Checkpoint {
@@ -34,4 +34,4 @@ Parameters read_checkpoint_parameters(const std::filesystem::path& path, const G
 /// Reads only the fingerprint; empty if the file does not exist. Throws Error for a file that is not a checkpoint.
 std::string read_checkpoint_fingerprint(const std::filesystem::path& path);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -6,7 +6,7 @@
 #include "base/enum_names.h"
 #include "nn/layers/layer.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using nlohmann::json;
@@ -88,4 +88,4 @@ Graph graph_from_json(const json& nodes, const std::string& where) {
   return graph;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -4,7 +4,7 @@
 
 #include "nn/graph/graph.h"
 
-namespace svnet {
+namespace svnet::io {
 
 // A graph as JSON: a list of nodes {"name", "kind", "inputs": [names], attributes…}. The kinds are Keras' class names;
 // the attributes are those that the layers visit (nn/layers).
@@ -15,4 +15,4 @@ nlohmann::json graph_to_json(const Graph& graph);
 /// make a graph. `where` begins the message ("model.safetensors: backbone").
 Graph graph_from_json(const nlohmann::json& json, const std::string& where);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -6,7 +6,9 @@
 #include "io/tensors/tensor_file.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::io {
+using models::Preprocessing;
+
 namespace {
 
 using nlohmann::json;
@@ -20,7 +22,7 @@ json preprocessing_to_json(const Preprocessing& p) {
 }
 
 Preprocessing preprocessing_from_json(const json& from) {
-  const Preprocessing p{.mode = pixel_mode_named(from.at("pixels").get<std::string>()),
+  const Preprocessing p{.mode = models::pixel_mode_named(from.at("pixels").get<std::string>()),
                         .height = from.at("height").get<Index>(),
                         .width = from.at("width").get<Index>(),
                         .interpolation = interpolation_named(from.at("interpolation").get<std::string>())};
@@ -37,8 +39,8 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
 }
 
 void check_fits_together(const Model& model) {
-  check(model.symmetries == 1 || model.symmetries == kSymmetries, "there are ", model.symmetries,
-        " orientations, expected 1 or ", kSymmetries);
+  check(model.symmetries == 1 || model.symmetries == view::kSymmetries, "there are ", model.symmetries,
+        " orientations, expected 1 or ", view::kSymmetries);
   const Preprocessing& p = model.preprocessing;
   check(model.symmetries == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
         " cannot be turned; only square ones can");
@@ -85,7 +87,7 @@ Model model_of(const TensorFile& file) {
     model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
     model.preprocessing = preprocessing_from_json(preprocessing);
     model.head = graph_from_json(head.at("graph"), "head");
-    model.angles = angle_encoding_named(angles.at("encoding").get<std::string>());
+    model.angles = models::angle_encoding_named(angles.at("encoding").get<std::string>());
     model.symmetries = head.value("orientations", 1);
     check_fits_together(model);
   } catch (const Error& error) {
@@ -106,4 +108,4 @@ Model parse_model(const std::string& name, std::span<const std::byte> contents) 
   return model_of(TensorFile::parse(name, contents, "model"));
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

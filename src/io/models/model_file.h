@@ -6,7 +6,7 @@
 
 #include "data/model.h"
 
-namespace svnet {
+namespace svnet::io {
 
 // The file is a TensorFile of kind "model" with the tensors "backbone/<layer>/<parameter>" and
 // "head/<layer>/<parameter>". Its description is {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels",
@@ -22,4 +22,4 @@ Model read_model(const std::filesystem::path& path);
 /// The same for the contents of a file in memory. Errors call it `name`.
 Model parse_model(const std::string& name, std::span<const std::byte> contents);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -17,7 +17,7 @@
 #include "io/files/file_format.h"
 #include "io/tensors/safetensors_header.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 constexpr std::uint64_t kLengthBytes = 8;
@@ -161,4 +161,4 @@ void write_safetensors(const std::filesystem::path& path, std::span<const Safete
   });
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -10,7 +10,7 @@
 #include "base/index.h"
 #include "io/tensors/safetensors_header.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// One tensor, row-major, little endian. It does not own its bytes. They may lie at any address: files of other writers
 /// need not align them, so copy them before use.
@@ -63,4 +63,4 @@ class SafetensorsFile {
 void write_safetensors(const std::filesystem::path& path, std::span<const SafetensorsTensor> tensors,
                        const SafetensorsMetadata& metadata = {});
 
-}  // namespace svnet
+}  // namespace svnet::io

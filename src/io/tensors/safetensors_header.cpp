@@ -9,7 +9,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using Json = nlohmann::json;
@@ -164,4 +164,4 @@ std::string safetensors_header_text(const std::string& file, const SafetensorsHe
   }
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

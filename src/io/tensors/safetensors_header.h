@@ -8,7 +8,7 @@
 #include "base/index.h"
 
 // The header of a safetensors file (format: io/tensors/safetensors.h).
-namespace svnet {
+namespace svnet::io {
 
 /// Texts by name, which the header holds beside the tensors.
 using SafetensorsMetadata = std::map<std::string, std::string>;
@@ -45,4 +45,4 @@ std::uint64_t safetensors_size(const std::string& file, const SafetensorsEntry& 
 /// The key of the header that holds the metadata.
 inline constexpr char kSafetensorsMetadataKey[] = "__metadata__";
 
-}  // namespace svnet
+}  // namespace svnet::io

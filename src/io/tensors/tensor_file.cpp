@@ -8,7 +8,7 @@
 #include "base/finite.h"
 #include "io/tensors/safetensors.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 constexpr int kFormat = 1;
@@ -133,4 +133,4 @@ void TensorFile::write(const std::filesystem::path& path) const {
   write_safetensors(path, raw, {{"svnet", description.dump()}});
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -8,7 +8,7 @@
 
 #include "nn/graph/parameters.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// A safetensors file of svnet: F32 tensors and a JSON object that describes them, which is the entry "svnet" of the
 /// metadata.
@@ -55,4 +55,4 @@ class TensorFile {
   std::vector<std::pair<std::string, Tensor>> tensors_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -11,7 +11,7 @@
 #include "base/text.h"
 #include "io/views/camera_layouts.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 using json = nlohmann::ordered_json;  // for reading too: a second kind of JSON takes seconds to compile
@@ -89,16 +89,15 @@ CameraFile read_camera(const std::filesystem::path& path) {
 }
 
 std::string camera_json(const CameraFile& camera) {
-  const Intrinsics& k = camera.intrinsics;
-  json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx},
-                                  {"fy", k.fy},       {"cx", k.cx},         {"cy", k.cy}};
+  const view::Intrinsics& k = camera.intrinsics;
+  json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx}, {"fy", k.fy}, {"cx", k.cx}, {"cy", k.cy}};
   if (camera.camera_to_world) {
     const Eigen::Vector3d t = camera.camera_to_world->translation();
-    const Eigen::Quaterniond q = orientation(*camera.camera_to_world);
+    const Eigen::Quaterniond q = view::orientation(*camera.camera_to_world);
     document["pose"] = {{"x_m", t.x()}, {"y_m", t.y()}, {"z_m", t.z()}, {"qx", q.x()},
                         {"qy", q.y()},  {"qz", q.z()},  {"qw", q.w()}};
   }
   return document.dump(2) + "\n";
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

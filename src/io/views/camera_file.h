@@ -6,11 +6,11 @@
 
 #include "view/camera.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// A camera and, if known, the pose of its optical frame in the world.
 struct CameraFile {
-  Intrinsics intrinsics;
+  view::Intrinsics intrinsics;
   std::optional<Eigen::Isometry3d> camera_to_world;
 };
 
@@ -23,4 +23,4 @@ CameraFile read_camera(const std::filesystem::path& path);
 /// The text of such a file.
 std::string camera_json(const CameraFile&);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -6,7 +6,9 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
+using view::Intrinsics;
+
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -170,4 +172,4 @@ Intrinsics intrinsics_of(const json& document, const std::string& name) {
   return camera;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -7,7 +7,7 @@
 
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::io {
 
 std::string composed_name(std::string_view name) {
   const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
@@ -21,4 +21,4 @@ std::string composed_name(std::string_view name) {
   return U_FAILURE(error) ? std::string(name) : composed;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

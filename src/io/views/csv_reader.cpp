@@ -4,7 +4,7 @@
 
 #include "base/error.h"
 
-namespace svnet {
+namespace svnet::io {
 
 CsvReader::CsvReader(std::string_view text, std::string name) : rest_(text), name_(std::move(name)) {
   constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";  // spreadsheets begin UTF-8 with it
@@ -72,4 +72,4 @@ bool CsvReader::next() {
   return true;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -3,7 +3,7 @@
 #include <string_view>
 #include <vector>
 
-namespace svnet {
+namespace svnet::io {
 
 /// Comma-separated values as RFC 4180 defines them: fields may be in quotes, which then may hold commas, line breaks
 /// and doubled quotes; lines end with CR LF, LF or CR. Also accepted: a byte order mark at the start, and spaces around
@@ -35,4 +35,4 @@ class CsvReader {
   long line_ = 0, next_line_ = 1;
 };
 
-}  // namespace svnet
+}  // namespace svnet::io

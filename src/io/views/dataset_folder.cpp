@@ -16,7 +16,7 @@
 #include "io/files/file_hash.h"
 #include "io/views/composed_name.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
@@ -199,4 +199,4 @@ std::string fingerprint(const ViewDataset& dataset, Parallel& parallel) {
   return all.hex();
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

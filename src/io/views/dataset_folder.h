@@ -10,7 +10,7 @@
 // with '_' or '.' are ignored at every level, and so are names that systems leave beside pictures (Thumbs.db,
 // desktop.ini, @eaDir, .DS_Store, lost+found), and files beside the category folders (manifest.json). Names of
 // categories are compared in Unicode's composed form.
-namespace svnet {
+namespace svnet::io {
 
 /// Whether datasets ignore files and folders of that name: it begins with '_' or '.', or systems leave it.
 bool is_ignored_name(const std::filesystem::path& name);
@@ -24,4 +24,4 @@ ViewDataset read_view_dataset(const std::filesystem::path& root,
 /// depend on the root. It is another one if EXIF orientation is obeyed.
 std::string fingerprint(const ViewDataset&, Parallel&);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -6,7 +6,7 @@
 #include "base/text.h"
 #include "io/images/image_file.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 std::string ignored_note(const ViewDataset& dataset) {
@@ -44,4 +44,4 @@ std::vector<std::string> dataset_notes(const ViewDataset& dataset, Parallel& par
   return notes;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "data/view_dataset.h"
 
-namespace svnet {
+namespace svnet::io {
 
 /// What somebody should know about a dataset that can be used all the same, a line each: how many files and folders
 /// were ignored, and how many pictures have an EXIF orientation that is ignored. Reads every picture's file.
@@ -15,4 +15,4 @@ std::vector<std::string> dataset_notes(const ViewDataset&, Parallel&);
 /// obey it.
 std::string exif_note(const std::string& first, int orientation, Index turned, Index total, const std::string& how);
 
-}  // namespace svnet
+}  // namespace svnet::io

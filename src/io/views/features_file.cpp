@@ -6,7 +6,7 @@
 #include "io/files/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 /// Attributes and the members they fill.
@@ -86,4 +86,4 @@ void write_features(const std::filesystem::path& path, const Features& features)
   });
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

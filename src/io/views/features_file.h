@@ -3,7 +3,7 @@
 
 #include "data/features.h"
 
-namespace svnet {
+namespace svnet::io {
 
 // The HDF5 datasets are `features` (N, D) float32, `th_ph` (N, 2) float64 in degrees, and `paths` (N) UTF-8. The
 // attributes of the root have the names of the members of FeaturesOrigin.
@@ -15,4 +15,4 @@ Features read_features(const std::filesystem::path& path);
 /// Replaces the file as a whole. Throws Error for features that read_features would refuse.
 void write_features(const std::filesystem::path& path, const Features& features);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -9,7 +9,9 @@
 #include "base/text.h"
 #include "io/views/csv_reader.h"
 
-namespace svnet {
+namespace svnet::io {
+using view::CameraPose;
+
 namespace {
 
 std::string_view trimmed(std::string_view text) {
@@ -58,4 +60,4 @@ std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
   return poses;
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

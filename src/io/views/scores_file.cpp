@@ -9,7 +9,7 @@
 #include "io/files/atomic_file.h"
 #include "io/hdf5/hdf5_file.h"
 
-namespace svnet {
+namespace svnet::io {
 namespace {
 
 constexpr std::pair<const char*, std::string ScoresOrigin::*> kTextAttributes[] = {
@@ -141,4 +141,4 @@ void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapsh
   });
 }
 
-}  // namespace svnet
+}  // namespace svnet::io

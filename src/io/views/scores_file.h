@@ -6,7 +6,7 @@
 
 #include "data/scores.h"
 
-namespace svnet {
+namespace svnet::io {
 
 // The HDF5 datasets are `individual`, `global`, `scaled`, `standard_error`, `rank_stability` (N) float64, `count` (N)
 // uint64 and `paths` (N) UTF-8. The attributes of the root have the names of the members of ScoresOrigin.
@@ -40,4 +40,4 @@ ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
 /// Replaces the file as a whole.
 void write_scores_snapshot(const std::filesystem::path& path, const ScoresSnapshot& snapshot);
 
-}  // namespace svnet
+}  // namespace svnet::io

@@ -152,13 +152,13 @@ std::vector<Tensor> run(const Graph& graph, const Runner& runner, const std::vec
 
 }  // namespace
 
-std::vector<Tensor> infer(const Graph& graph, const Parameters& parameters, const std::vector<Tensor>& inputs,
-                          const std::vector<NodeId>& outputs) {
+std::vector<Tensor> run_inference(const Graph& graph, const Parameters& parameters, const std::vector<Tensor>& inputs,
+                                  const std::vector<NodeId>& outputs) {
   return run(graph, Runner(parameters, nullptr, nullptr), inputs, outputs);
 }
 
-std::vector<Tensor> train(const Graph& graph, Parameters& parameters, const std::vector<Tensor>& inputs,
-                          const std::vector<NodeId>& outputs, const TrainingContext& context) {
+std::vector<Tensor> run_training(const Graph& graph, Parameters& parameters, const std::vector<Tensor>& inputs,
+                                 const std::vector<NodeId>& outputs, const TrainingContext& context) {
   return run(graph, Runner(parameters, &parameters, &context), inputs, outputs);
 }
 

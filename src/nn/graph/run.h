@@ -22,11 +22,11 @@ struct TrainingContext {
 /// Runs the layers that `outputs` depend on and returns the values of `outputs`, in their order. `inputs` are batches
 /// for graph.inputs(), in order, of the parameters' element type. A value is released as soon as its last reader has
 /// run. Inference: batch norm uses the moving statistics, dropout does nothing, nothing is recorded.
-std::vector<Tensor> infer(const Graph& graph, const Parameters& parameters, const std::vector<Tensor>& inputs,
-                          const std::vector<NodeId>& outputs);
+std::vector<Tensor> run_inference(const Graph& graph, const Parameters& parameters, const std::vector<Tensor>& inputs,
+                                  const std::vector<NodeId>& outputs);
 
 /// Training: batch norm uses the batch and updates the moving statistics, dropout is applied, the tape is recorded.
-std::vector<Tensor> train(const Graph& graph, Parameters& parameters, const std::vector<Tensor>& inputs,
-                          const std::vector<NodeId>& outputs, const TrainingContext& context);
+std::vector<Tensor> run_training(const Graph& graph, Parameters& parameters, const std::vector<Tensor>& inputs,
+                                 const std::vector<NodeId>& outputs, const TrainingContext& context);
 
 }  // namespace svnet

@@ -6,14 +6,9 @@ namespace svnet::kernels {
 /// Which kernels 3×3 convolutions of stride 1 may use. automatic: the faster ones.
 enum class Convolution { automatic, direct, winograd };
 
+constexpr auto enum_table(Convolution) {
+  return std::to_array<EnumName<Convolution>>(
+      {{Convolution::automatic, "automatic"}, {Convolution::direct, "direct"}, {Convolution::winograd, "winograd"}});
+}
+
 }  // namespace svnet::kernels
-
-namespace svnet {
-
-template <>
-inline constexpr auto enum_names<kernels::Convolution> =
-    std::to_array<EnumName<kernels::Convolution>>({{kernels::Convolution::automatic, "automatic"},
-                                                   {kernels::Convolution::direct, "direct"},
-                                                   {kernels::Convolution::winograd, "winograd"}});
-
-}  // namespace svnet

@@ -9,12 +9,8 @@ enum class Precision { f32, bf16 };
 /// Throws Error if the processor, or the instruction set that kernels are capped at, has no such products.
 void check_available(Precision precision);
 
+constexpr auto enum_table(Precision) {
+  return std::to_array<EnumName<Precision>>({{Precision::f32, "f32"}, {Precision::bf16, "bf16"}});
+}
+
 }  // namespace svnet::kernels
-
-namespace svnet {
-
-template <>
-inline constexpr auto enum_names<kernels::Precision> =
-    std::to_array<EnumName<kernels::Precision>>({{kernels::Precision::f32, "f32"}, {kernels::Precision::bf16, "bf16"}});
-
-}  // namespace svnet

@@ -19,9 +19,10 @@ struct Padding {
   bool operator==(const Padding&) const = default;
 };
 
-template <>
-inline constexpr auto enum_names<Padding::Kind> = std::to_array<EnumName<Padding::Kind>>(
-    {{Padding::Kind::valid, "valid"}, {Padding::Kind::same, "same"}, {Padding::Kind::explicit_, "explicit"}});
+constexpr auto enum_table(Padding::Kind) {
+  return std::to_array<EnumName<Padding::Kind>>(
+      {{Padding::Kind::valid, "valid"}, {Padding::Kind::same, "same"}, {Padding::Kind::explicit_, "explicit"}});
+}
 
 /// Sizes of windows, strides and paddings are below this, so that their sums do not overflow.
 constexpr Index kLargestWindow = Index{1} << 31;

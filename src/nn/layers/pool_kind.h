@@ -6,8 +6,8 @@ namespace svnet {
 /// What a pool takes of each window.
 enum class PoolKind { max, average };
 
-template <>
-inline constexpr auto enum_names<PoolKind> = std::to_array<EnumName<PoolKind>>({{PoolKind::max, "max"},
-                                                                                {PoolKind::average, "average"}});
+constexpr auto enum_table(PoolKind) {
+  return std::to_array<EnumName<PoolKind>>({{PoolKind::max, "max"}, {PoolKind::average, "average"}});
+}
 
 }  // namespace svnet

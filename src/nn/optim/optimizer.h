@@ -40,9 +40,9 @@ struct SgdOptions {
 std::unique_ptr<Optimizer> sgd(std::vector<Tensor> parameters, const SgdOptions& options = {});
 
 enum class OptimizerKind { adam, sgd };
-template <>
-inline constexpr auto enum_names<OptimizerKind> = std::to_array<EnumName<OptimizerKind>>({{OptimizerKind::adam, "adam"},
-                                                                                          {OptimizerKind::sgd, "sgd"}});
+constexpr auto enum_table(OptimizerKind) {
+  return std::to_array<EnumName<OptimizerKind>>({{OptimizerKind::adam, "adam"}, {OptimizerKind::sgd, "sgd"}});
+}
 
 /// The optimizer that a kind names.
 struct OptimizerOptions {

@@ -22,8 +22,9 @@ struct Schedule {
   double at(std::int64_t step) const;
 };
 
-template <>
-inline constexpr auto enum_names<Schedule::Kind> = std::to_array<EnumName<Schedule::Kind>>(
-    {{Schedule::Kind::constant, "constant"}, {Schedule::Kind::step, "step"}, {Schedule::Kind::cosine, "cosine"}});
+constexpr auto enum_table(Schedule::Kind) {
+  return std::to_array<EnumName<Schedule::Kind>>(
+      {{Schedule::Kind::constant, "constant"}, {Schedule::Kind::step, "step"}, {Schedule::Kind::cosine, "cosine"}});
+}
 
 }  // namespace svnet

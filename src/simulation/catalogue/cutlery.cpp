@@ -3,7 +3,7 @@
 #include "simulation/catalogue/designs.h"
 #include "simulation/catalogue/looks.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using namespace looks;
@@ -206,4 +206,4 @@ std::vector<CategoryDesigns> cutlery_designs() {
   };
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -4,7 +4,7 @@
 #include "simulation/sculptor.h"
 
 // Each category of the catalogue is a table of designs and a function that builds an object from one.
-namespace svnet {
+namespace svnet::simulation {
 
 /// The parameters of a category's function, in its own order and mostly in millimetres, and its materials. A parameter
 /// that selects a kind is an integer; mixed designs round it.
@@ -28,4 +28,4 @@ std::vector<CategoryDesigns> vessel_designs();
 std::vector<CategoryDesigns> personal_designs();
 std::vector<CategoryDesigns> household_designs();
 
-}  // namespace svnet
+}  // namespace svnet::simulation

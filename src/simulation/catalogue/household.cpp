@@ -4,7 +4,7 @@
 #include "simulation/catalogue/designs.h"
 #include "simulation/catalogue/looks.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using namespace looks;
@@ -211,4 +211,4 @@ std::vector<CategoryDesigns> household_designs() {
   };
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

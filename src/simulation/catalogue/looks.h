@@ -2,7 +2,7 @@
 #include "simulation/mesh.h"
 
 // Materials by name. Colours are linear RGB.
-namespace svnet::looks {
+namespace svnet::simulation::looks {
 
 inline Material plastic(float r, float g, float b) {
   return {.colour = {r, g, b}, .second = {r, g, b}, .gloss = 0.05f, .sharpness = 60};
@@ -53,4 +53,4 @@ inline Material grey() { return plastic(0.25f, 0.26f, 0.27f); }
 inline Material purple() { return plastic(0.25f, 0.06f, 0.35f); }
 inline Material teal() { return plastic(0.03f, 0.35f, 0.36f); }
 
-}  // namespace svnet::looks
+}  // namespace svnet::simulation::looks

@@ -4,7 +4,7 @@
 #include "simulation/catalogue/designs.h"
 #include "simulation/catalogue/looks.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using namespace looks;
@@ -315,4 +315,4 @@ std::vector<CategoryDesigns> tool_designs() {
   };
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

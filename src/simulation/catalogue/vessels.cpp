@@ -3,7 +3,7 @@
 #include "simulation/catalogue/designs.h"
 #include "simulation/catalogue/looks.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using namespace looks;
@@ -286,4 +286,4 @@ std::vector<CategoryDesigns> vessel_designs() {
   };
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -75,4 +75,4 @@ std::optional<fs::path> CollectionFiles::find(const char* kind, const std::strin
   return std::nullopt;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// Finds the files that a mesh names: as they are written, with / or \, relative to the mesh file, or to the target of
 /// a symbolic link to it. They may lie anywhere in the collection, which of a link's target is as many folders above
@@ -33,4 +33,4 @@ class CollectionFiles {
   Say warn_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "io/files/whole_file.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using Json = GltfFile::Json;
@@ -218,7 +218,7 @@ std::string_view GltfFile::buffer(std::size_t index) const {
   if (!contents) {
     const auto path = files_.find("buffer", decoded_uri(uri));
     check_here(path.has_value(), "its buffer '", printable(uri), "' is missing");
-    contents = whole_file(*path);
+    contents = io::whole_file(*path);
   }
   return *contents;
 }
@@ -285,4 +285,4 @@ GltfFile::Numbers GltfFile::accessor(std::size_t number, bool normalise) const {
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

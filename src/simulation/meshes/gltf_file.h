@@ -7,7 +7,7 @@
 
 #include "collection_files.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A glTF 2.0 file without its meaning: the JSON and the numbers and bytes that it points to
 /// (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html). Everything throws Error that begins with the file's
@@ -66,4 +66,4 @@ class GltfFile {
 /// With "%20" and the like as the bytes that they stand for (RFC 3986, section 2.1).
 std::string decoded_uri(std::string_view uri);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,12 +5,12 @@
 #include "base/error.h"
 #include "base/text.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using Json = GltfFile::Json;
 
-Bytes bytes_of(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+io::Bytes bytes_of(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
 Wrap wrap_of(std::optional<std::size_t> code) {
   constexpr std::size_t kClamp = 33071, kMirror = 33648;
@@ -106,4 +106,4 @@ TextureCoordinates GltfMaterials::coordinates(const Json& info) const {
   return result;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 #include "gltf_file.h"
 #include "mesh_textures.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// From which coordinates a texture is read, and how they are moved (KHR_texture_transform).
 struct TextureCoordinates {
@@ -42,4 +42,4 @@ class GltfMaterials {
   std::map<std::optional<std::size_t>, GltfMaterial> known_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

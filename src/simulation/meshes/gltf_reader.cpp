@@ -8,7 +8,7 @@
 #include "gltf_materials.h"
 #include "mesh_readers.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using Json = GltfFile::Json;
@@ -195,4 +195,4 @@ void read_gltf(std::string_view file, const CollectionFiles& files, MeshDraft& d
   GltfReader(gltf, draft).read();
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

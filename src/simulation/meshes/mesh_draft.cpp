@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "simulation/sculptor.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 using Eigen::Vector3d;
@@ -121,4 +121,4 @@ std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Vect
   return triangulated(outline, {});
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

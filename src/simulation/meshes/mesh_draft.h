@@ -8,7 +8,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 struct MeshReading;
 
@@ -51,4 +51,4 @@ class MeshDraft {
 /// the plane of its mean normal.
 std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Eigen::Vector3d> corners);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -7,7 +7,7 @@
 #include "io/files/whole_file.h"
 #include "mesh_readers.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -36,10 +36,10 @@ Mesh read_mesh(const fs::path& path, const MeshReading& reading) {
   check(read != nullptr, name, ": is not named like a mesh; expected .obj, .ply, .stl, .glb or .gltf");
   MeshDraft draft(name);
   {
-    const std::string contents = whole_file(path);
+    const std::string contents = io::whole_file(path);
     read(contents, CollectionFiles(path, reading.collection, reading.warn), draft);
   }
   return std::move(draft).finish(reading.metres_per_unit);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// Whether a file's name ends like that of a mesh: .obj, .ply, .stl, .glb or .gltf, in small or capital letters.
 bool is_mesh_name(const std::filesystem::path& path);
@@ -26,4 +26,4 @@ struct MeshReading {
 /// is a warning.
 Mesh read_mesh(const std::filesystem::path& path, const MeshReading& reading = {});
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -6,7 +6,7 @@
 
 // One reader per format. Each takes the whole file, fills the draft, and throws Error that begins with the draft's name
 // for what it cannot read completely. `files` finds what the mesh names, and takes warnings.
-namespace svnet {
+namespace svnet::simulation {
 
 /// Wavefront OBJ, with MTL materials. Without a texture, colours of vertices replace Kd.
 void read_obj(std::string_view file, const CollectionFiles& files, MeshDraft& draft);
@@ -21,4 +21,4 @@ void read_stl(std::string_view file, const CollectionFiles& files, MeshDraft& dr
 /// glTF 2.0, as GLB or as JSON with its buffers beside it or inside.
 void read_gltf(std::string_view file, const CollectionFiles& files, MeshDraft& draft);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

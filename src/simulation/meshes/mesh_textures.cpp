@@ -4,7 +4,7 @@
 #include "base/text.h"
 #include "io/images/texture_image.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 std::optional<int> MeshTextures::file(const std::string& reference) {
   const auto [known, is_new] = by_reference_.try_emplace(reference);
@@ -17,7 +17,7 @@ std::optional<int> MeshTextures::file(const std::string& reference) {
   const auto [same, is_unread] = by_path_.try_emplace(path->string());
   if (is_unread) {
     try {
-      same->second = draft_.add(decode_texture(path->string(), picture_contents(*path)));
+      same->second = draft_.add(io::decode_texture(path->string(), io::picture_contents(*path)));
     } catch (const Error& error) {
       fail(files_.name(), ": texture ", error.what());
     }
@@ -25,11 +25,12 @@ std::optional<int> MeshTextures::file(const std::string& reference) {
   return known->second = same->second;
 }
 
-int MeshTextures::embedded(const std::string& reference, Bytes contents) {
+int MeshTextures::embedded(const std::string& reference, io::Bytes contents) {
   const auto [known, is_new] = by_reference_.try_emplace(reference);
   if (is_new)
-    known->second = draft_.add(decode_texture(files_.name() + ": texture '" + printable(reference) + "'", contents));
+    known->second =
+        draft_.add(io::decode_texture(files_.name() + ": texture '" + printable(reference) + "'", contents));
   return *known->second;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

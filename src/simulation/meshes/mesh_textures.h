@@ -7,7 +7,7 @@
 #include "io/images/image_codecs.h"
 #include "mesh_draft.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The textures of one mesh, each read once. A texture that is missing gives none, with one warning; one that cannot be
 /// decoded, or lies outside the collection, throws Error.
@@ -18,7 +18,7 @@ class MeshTextures {
   /// The index of the picture in a file, by the path that the mesh gives.
   std::optional<int> file(const std::string& reference);
   /// Of one that is inside the mesh file under the name `reference`.
-  int embedded(const std::string& reference, Bytes contents);
+  int embedded(const std::string& reference, io::Bytes contents);
 
  private:
   const CollectionFiles& files_;
@@ -26,4 +26,4 @@ class MeshTextures {
   std::map<std::string, std::optional<int>> by_reference_, by_path_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -6,7 +6,7 @@
 #include "base/error.h"
 #include "simulation/collection.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 struct Unit {
@@ -60,4 +60,4 @@ double metres_per_unit(double length, const std::string& name, std::optional<dou
   fail_size(length * given.value_or(1), name, hint.empty() ? "" : hint + ".");
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

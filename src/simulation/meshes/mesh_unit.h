@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// Metres per unit of a mesh that is `length` units long. Files do not say their unit: `given` decides; without it
 /// metres where the object can be collected then, else centimetres or millimetres where only one of them makes a
@@ -12,4 +12,4 @@ namespace svnet {
 double metres_per_unit(double length, const std::string& name, std::optional<double> given,
                        const std::function<void(const std::string& line)>& warn);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

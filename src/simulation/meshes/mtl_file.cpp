@@ -2,7 +2,7 @@
 
 #include "text_words.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// The numbers at the front of a line, at most three.
@@ -83,4 +83,4 @@ Vec3 texture_factor(const MtlMaterial& material) {
   return material.diffuse && *material.diffuse != Vec3::Zero() ? *material.diffuse : Vec3(Vec3::Ones());
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -6,7 +6,7 @@
 
 #include "simulation/mesh.h"
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// A picture that a material names, and the options before its name.
 struct MtlMap {
@@ -29,4 +29,4 @@ std::vector<MtlMaterial> parse_mtl(std::string_view file);
 /// Kd × map_Kd. Kd 0 0 0, which many programs write beside a texture, leaves the texture alone.
 Vec3 texture_factor(const MtlMaterial&);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

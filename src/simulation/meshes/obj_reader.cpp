@@ -12,7 +12,7 @@
 #include "simulation/texture.h"
 #include "text_words.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 class ObjReader {
@@ -156,7 +156,7 @@ class ObjReader {
   bool read_material_file(const std::string& name) {
     const auto path = files_.find("material file", name);
     if (!path) return false;
-    for (MtlMaterial& material : parse_mtl(whole_file(*path)))
+    for (MtlMaterial& material : parse_mtl(io::whole_file(*path)))
       materials_.try_emplace(material.name, UsedMaterial{material, -1, -1, false});
     return true;
   }
@@ -220,4 +220,4 @@ void read_obj(std::string_view file, const CollectionFiles& files, MeshDraft& dr
   ObjReader(files, draft).read(file);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -8,7 +8,7 @@
 #include "base/text.h"
 #include "mesh_file.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ fs::path mesh_of_folder(const fs::path& folder, const std::function<void(const s
   return found[0].file;
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

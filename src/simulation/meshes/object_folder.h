@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-namespace svnet {
+namespace svnet::simulation {
 
 /// The mesh of an object that has a folder of its own, up to three levels deep: FOLDER/textured.obj,
 /// FOLDER/google_16k/textured.obj, FOLDER/meshes/model.obj. Of several the formats with textures come first (OBJ, GLB,
@@ -13,4 +13,4 @@ namespace svnet {
 std::filesystem::path mesh_of_folder(const std::filesystem::path& folder,
                                      const std::function<void(const std::string& line)>& say);
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -9,7 +9,7 @@
 #include "base/text.h"
 #include "text_words.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// Takes the next line of a text body that is not blank; empty at the end.
@@ -141,4 +141,4 @@ double PlyBody::take_number(const PlyType& type) {
   return static_cast<double>(static_cast<std::int64_t>(bits << shift) >> shift);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

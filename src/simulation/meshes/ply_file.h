@@ -6,7 +6,7 @@
 
 // PLY files without their meaning: a header of lines that declares elements and their properties, then the elements one
 // after the other, as lines of numbers or packed. Lists carry their length before them.
-namespace svnet {
+namespace svnet::simulation {
 
 struct PlyType {
   std::size_t bytes = 0;  // 0: no type
@@ -57,4 +57,4 @@ class PlyBody {
   std::string_view rest_;
 };
 
-}  // namespace svnet
+}  // namespace svnet::simulation

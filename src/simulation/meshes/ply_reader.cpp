@@ -8,7 +8,7 @@
 #include "ply_file.h"
 #include "simulation/texture.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 /// Where the colours of an element stand. Integers fill their type's range, floats [0, 1]; both are sRGB.
@@ -202,4 +202,4 @@ void read_ply(std::string_view file, const CollectionFiles& files, MeshDraft& dr
   PlyReader(header, PlyBody(header.format, file), files, draft).read();
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -12,7 +12,7 @@
 #include "simulation/texture.h"
 #include "text_words.h"
 
-namespace svnet {
+namespace svnet::simulation {
 namespace {
 
 constexpr std::size_t kHeader = 80, kFacet = 50;
@@ -168,4 +168,4 @@ void read_stl(std::string_view file, const CollectionFiles& files, MeshDraft& dr
     read_packed(file, draft);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -5,7 +5,7 @@
 #include "base/text.h"
 
 // Lines and words of mesh files that are text. Each take_ function removes what it returns from the front of the text.
-namespace svnet {
+namespace svnet::simulation {
 
 constexpr std::string_view kBlanks = " \t\r\f\v";
 
@@ -37,4 +37,4 @@ bool parse_signed(std::string_view word, Number& number) {
   return parse_number(word, number);
 }
 
-}  // namespace svnet
+}  // namespace svnet::simulation

@@ -3,32 +3,33 @@
 
 // The choices of a configuration that belong to the training of SV-net alone.
 
-namespace svnet {
+namespace svnet::train {
 
 /// Which score of a view SV-net learns.
 enum class Target { individual, global };
-template <>
-inline constexpr auto enum_names<Target> = std::to_array<EnumName<Target>>({{Target::individual, "individual"},
-                                                                            {Target::global, "global"}});
+constexpr auto enum_table(Target) {
+  return std::to_array<EnumName<Target>>({{Target::individual, "individual"}, {Target::global, "global"}});
+}
 
 /// In which symmetries (view/symmetry.h) SV-net sees the top image when it scores a view: as taken, or all of
 /// them, averaged.
 enum class Orientations { as_taken, all };
-template <>
-inline constexpr auto enum_names<Orientations> =
-    std::to_array<EnumName<Orientations>>({{Orientations::as_taken, "as_taken"}, {Orientations::all, "all"}});
+constexpr auto enum_table(Orientations) {
+  return std::to_array<EnumName<Orientations>>({{Orientations::as_taken, "as_taken"}, {Orientations::all, "all"}});
+}
 
 /// Which part of the backbone is trained together with the head.
 enum class FineTune { none, last_block, all };
-template <>
-inline constexpr auto enum_names<FineTune> = std::to_array<EnumName<FineTune>>({{FineTune::none, "none"},
-                                                                                {FineTune::last_block, "last_block"},
-                                                                                {FineTune::all, "all"}});
+constexpr auto enum_table(FineTune) {
+  return std::to_array<EnumName<FineTune>>(
+      {{FineTune::none, "none"}, {FineTune::last_block, "last_block"}, {FineTune::all, "all"}});
+}
 
 /// How training examples are multiplied. turns: each top image in all of its orientations.
 enum class TopViewAugmentation { none, turns };
-template <>
-inline constexpr auto enum_names<TopViewAugmentation> = std::to_array<EnumName<TopViewAugmentation>>(
-    {{TopViewAugmentation::none, "none"}, {TopViewAugmentation::turns, "turns"}});
+constexpr auto enum_table(TopViewAugmentation) {
+  return std::to_array<EnumName<TopViewAugmentation>>(
+      {{TopViewAugmentation::none, "none"}, {TopViewAugmentation::turns, "turns"}});
+}
 
-}  // namespace svnet
+}  // namespace svnet::train

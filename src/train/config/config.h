@@ -12,7 +12,7 @@
 #include "semantics/clusterer.h"
 #include "train/config/choices.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The values of the keys of a configuration file, with their defaults. config_table.cpp says what each key means and
 /// accepts; configs/paper.yaml shows all of them. A backbone is a name of models/registry.h.
@@ -28,20 +28,20 @@ struct Config {
   struct Scores {
     std::string backbone = "xception";
     std::string layer;
-    Clustering clustering = Clustering::ward;
+    semantics::Clustering clustering = semantics::Clustering::ward;
     Index min_samples = 0;  ///< at least one of the three stop rules must be above 0
     Index problems = 0;
     double target_error = 0;
     Index min_categories = 3, max_categories = 0;
     Index min_objects = 1, max_objects = 0;
-    Singletons singletons = Singletons::zero;
+    semantics::Singletons singletons = semantics::Singletons::zero;
   };
   struct SvNet {
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;
     double dropout = 0.75;
-    AngleEncoding angles = AngleEncoding::radians;
+    models::AngleEncoding angles = models::AngleEncoding::radians;
     Target target = Target::individual;
     Orientations orientations = Orientations::as_taken;
   };
@@ -62,7 +62,7 @@ struct Config {
     Index problems = 10000;
     std::vector<std::string> pipelines;  ///< as pipeline_name.h reads them; parse_config fills an empty list
     std::vector<std::string> selectors;  ///< names of train/selectors.h; empty: the default ones of each table
-    NmiAverage nmi = NmiAverage::arithmetic;
+    semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
   };
 
   Index seed = 0;
@@ -74,4 +74,4 @@ struct Config {
   Evaluation evaluation;
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -10,7 +10,7 @@
 #include "train/config/config_table.h"
 #include "train/config/strict_yaml.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 using std::filesystem::path;
@@ -164,4 +164,4 @@ std::vector<ConfigKey> config_keys() {
   return keys;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

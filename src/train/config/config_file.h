@@ -7,7 +7,7 @@
 #include "train/config/config.h"
 #include "train/config/stage.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Reads a configuration. `source` is the name of the text in messages. Relative paths in the text start at `folder`,
 /// those in `overrides` ("key=value", applied in order) at the working directory. Throws Error with file, line and key.
@@ -34,4 +34,4 @@ struct ConfigKey {
 };
 std::vector<ConfigKey> config_keys();
 
-}  // namespace svnet
+}  // namespace svnet::train

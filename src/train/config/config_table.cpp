@@ -5,7 +5,7 @@
 #include "semantics/score_sums.h"
 #include "train/config/pipeline_name.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 using Names = std::vector<std::string>;
@@ -92,7 +92,7 @@ BoundKey pipelines(Stage stage, std::string name, Names& field, std::string help
 
 std::vector<BoundKey> bound_keys(Config& c) {
   constexpr NumberRange kNotNegative{.min = 0}, kPositive{.min = 0, .min_open = true}, kFromOne{.min = 1};
-  constexpr NumberRange kProblems{.min = 0, .max = static_cast<double>(ScoreSums::kMostProblems)};
+  constexpr NumberRange kProblems{.min = 0, .max = static_cast<double>(semantics::ScoreSums::kMostProblems)};
   constexpr NumberRange kBelowOne{.min = 0, .max = 1, .max_open = true};
   const std::string backbone = "a backbone's name", layer = "a layer's name, or \"\"";
   return {
@@ -177,4 +177,4 @@ BoundKey bound_key(Config& config, const std::string& name) {
   fail("[config] there is no key '", name, "'");
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -8,7 +8,7 @@
 #include "train/config/stage.h"
 #include "train/config/strict_yaml.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// One key bound to its field of a Config: the only declaration of the key.
 struct BoundKey {
@@ -29,4 +29,4 @@ std::vector<BoundKey> bound_keys(Config& config);
 /// The key of that name. Requires that there is one.
 BoundKey bound_key(Config& config, const std::string& name);
 
-}  // namespace svnet
+}  // namespace svnet::train

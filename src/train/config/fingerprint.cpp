@@ -6,7 +6,7 @@
 #include "base/sha256.h"
 #include "train/config/config_table.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// How a stage makes its result. Raise the number when the same inputs and keys give another result than before.
@@ -48,4 +48,4 @@ std::string model_fingerprint(const std::string& features, const std::string& sc
   return stage_fingerprint(Stage::model, inputs, config);
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

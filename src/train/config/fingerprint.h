@@ -13,7 +13,7 @@
 // of features (features_origin in feature_extraction.h) covers what these contain, so that moving a folder changes
 // nothing. Hence the text of these keys is part of no fingerprint.
 
-namespace svnet {
+namespace svnet::train {
 
 /// Changes with everything that the scores of these features depend on.
 std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config);
@@ -25,4 +25,4 @@ std::string model_fingerprint(const std::string& features, const std::string& sc
 /// The fingerprint of any stage after the features. `inputs` are the fingerprints of its inputs, in a fixed order.
 std::string stage_fingerprint(Stage stage, std::span<const std::string> inputs, const Config& config);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,7 +4,8 @@
 #include "base/text.h"
 #include "train/config/strict_yaml.h"
 
-namespace svnet {
+namespace svnet::train {
+using semantics::Clustering;
 
 PipelineName parse_pipeline(const std::string& name, const std::string& where) {
   const auto at = name.rfind('_');
@@ -16,4 +17,4 @@ PipelineName parse_pipeline(const std::string& name, const std::string& where) {
   return {name.substr(0, at), *find_enum<Clustering>(clustering)};
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

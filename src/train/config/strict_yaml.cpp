@@ -12,7 +12,7 @@
 #include "base/text.h"
 #include "train/config/yaml_blanks.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 using Kind = YamlValue::Kind;
@@ -266,4 +266,4 @@ std::string written_yaml(std::span<const std::string> texts) {
   return "[" + joined_with(", ", written) + "]";
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

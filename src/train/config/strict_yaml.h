@@ -8,7 +8,7 @@
 #include "base/enum_names.h"
 #include "base/index.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// A strict reading of YAML: one document of mappings, lists and scalars. Keys are names without dots, none twice in a
 /// mapping; anchors, aliases and tags are errors. Every error is one line that begins with where the value stands.
@@ -65,4 +65,4 @@ std::string written_yaml(std::string_view text);
 std::string written_yaml(double number);
 std::string written_yaml(std::span<const std::string> texts);
 
-}  // namespace svnet
+}  // namespace svnet::train

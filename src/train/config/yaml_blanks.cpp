@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 struct UnicodeSpace {
@@ -80,4 +80,4 @@ class Scanner {
 
 std::optional<FalseBlank> false_blank(std::string_view yaml) { return Scanner(yaml).scan(); }
 
-}  // namespace svnet
+}  // namespace svnet::train

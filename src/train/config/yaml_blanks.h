@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-namespace svnet {
+namespace svnet::train {
 
 /// A character that looks like a space but is none to YAML, at a place from 1.
 struct FalseBlank {
@@ -15,4 +15,4 @@ struct FalseBlank {
 /// brackets, or a no-break or other Unicode space anywhere.
 std::optional<FalseBlank> false_blank(std::string_view yaml);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -4,19 +4,19 @@
 #include "train/stages/held_out_scores.h"
 #include "train/view_sheet.h"
 
-namespace svnet {
+namespace svnet::train {
 
 std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const EvaluationInputs& inputs,
                                                          std::uint64_t problems) {
   if (!run.has_held_out_problems()) return {};
-  const SemanticScores scores = held_out_scores(run, inputs.features, problems);
+  const semantics::SemanticScores scores = held_out_scores(run, inputs.features, problems);
   const auto& best = run.config.sv_net.target == Target::individual ? scores.individual : scores.global;
   const Selector selectors[] = {{"top", top_views(run.dataset)},
                                 {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};
   const auto path = run.folder / "views.png";
-  write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, run.held_out), selectors));
+  io::write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, run.held_out), selectors));
   return path;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -13,7 +13,7 @@
 #include "train/stages/predictions.h"
 #include "train/stages/scores.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// The first `objects` objects of each category, in one pose, with its top view and three others.
@@ -107,4 +107,4 @@ void dry_run(const Config& config, const ViewDataset& dataset, const Messages& m
   contact_sheet_stage(run, inputs, kProblems);
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

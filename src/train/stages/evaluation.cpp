@@ -9,7 +9,7 @@
 #include "train/random_problems.h"
 #include "train/stages/held_out_scores.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// The distances that pipelines need, those of each backbone once.
@@ -24,7 +24,7 @@ class PipelineDistances {
   }
 
  private:
-  using Distances = std::pair<DistanceMatrix, Index>;  // with the features' dimension
+  using Distances = std::pair<semantics::DistanceMatrix, Index>;  // with the features' dimension
 
   const Distances& distances_of(const std::string& backbone) {
     const auto found = distances_.find(backbone);
@@ -33,7 +33,8 @@ class PipelineDistances {
     const Features& f = features_.features(backbone, backbone == scored.backbone ? scored.layer : std::string());
     return distances_
         .emplace(backbone,
-                 Distances(squared_distances(f.values.data(), f.count, f.dimension, Parallel::shared()), f.dimension))
+                 Distances(semantics::squared_distances(f.values.data(), f.count, f.dimension, Parallel::shared()),
+                           f.dimension))
         .first->second;
   }
 
@@ -73,7 +74,7 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
   tables["training"] =
       table(run.held_out, selectors(run, Split::training, in_training), "evaluation, training categories");
   if (run.has_held_out_problems()) {
-    std::optional<SemanticScores> scores;
+    std::optional<semantics::SemanticScores> scores;
     const SelectorInputs in_held_out{.dataset = run.dataset,
                                      .scores =
                                          [&] {
@@ -87,9 +88,9 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
     run.say("evaluation: fewer than 2 held-out categories, no table of them");
   }
   const std::string json = tables_json(tables);
-  write_atomically(run.folder / "evaluation.json", json);
-  if (copy) write_atomically(*copy, json);
+  io::write_atomically(run.folder / "evaluation.json", json);
+  if (copy) io::write_atomically(*copy, json);
   return tables;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

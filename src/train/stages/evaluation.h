@@ -8,7 +8,7 @@
 #include "train/run.h"
 #include "train/stages/features.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// What the last stage takes from the earlier ones.
 struct EvaluationInputs {
@@ -22,4 +22,4 @@ struct EvaluationInputs {
 EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs, std::uint64_t problems,
                                   const std::optional<std::filesystem::path>& copy = {});
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -2,7 +2,7 @@
 
 #include "train/stages/reuse_or_make.h"
 
-namespace svnet {
+namespace svnet::train {
 
 const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const std::string& layer) {
   const std::string key = name + "/" + layer;
@@ -27,7 +27,7 @@ const Features& FeaturesStage::features(const std::string& name, const std::stri
     return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
   };
   const StageFile file{.path = path, .fingerprint = origin.input_fingerprint, .content = "features of " + name};
-  return features_.emplace(path, reuse_or_make(run_, file, read_features, make, write_features)).first->second;
+  return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, io::write_features)).first->second;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

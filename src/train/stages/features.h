@@ -7,7 +7,7 @@
 #include "train/feature_extraction.h"
 #include "train/run.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The first stage: features of every view, in features-<backbone>[-<layer>].h5. Features, and the weights of a
 /// backbone, are read or made once, when a later stage first asks for them. The layer "" is the pooled output.
@@ -27,4 +27,4 @@ class FeaturesStage {
   std::map<std::filesystem::path, Features> features_{};  // by their file
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -3,9 +3,9 @@
 #include "train/run.h"
 #include "train/stages/features.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// Semantic scores of the views of the held-out categories, in `problems` problems of these categories alone.
-SemanticScores held_out_scores(const Run& run, FeaturesStage& features, std::uint64_t problems);
+semantics::SemanticScores held_out_scores(const Run& run, FeaturesStage& features, std::uint64_t problems);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -16,7 +16,10 @@
 #include "train/validation_categories.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::train {
+using io::Checkpoint;
+using models::Backbone;
+
 namespace {
 
 /// The fingerprint of the model that this configuration leads to.
@@ -29,7 +32,7 @@ std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
 
 /// The model before training: its head has no parameters yet.
 Model untrained_model(const Config& config, const Backbone& backbone, const std::string& fingerprint) {
-  const AngleEncoding angles = config.sv_net.angles;
+  const models::AngleEncoding angles = config.sv_net.angles;
   return {.backbone = backbone.kind().name,
           .backbone_output = backbone.output_name(),
           .preprocessing = backbone.preprocessing(),
@@ -37,10 +40,10 @@ Model untrained_model(const Config& config, const Backbone& backbone, const std:
           .backbone_parameters = backbone.parameters(),
           .angles = angles,
           .symmetries = scored_orientations(config),
-          .head = sv_net({.features = backbone.dimension(),
-                          .width = config.sv_net.width,
-                          .dropout = config.sv_net.dropout,
-                          .angles = angles}),
+          .head = models::sv_net({.features = backbone.dimension(),
+                                  .width = config.sv_net.width,
+                                  .dropout = config.sv_net.dropout,
+                                  .angles = angles}),
           .head_parameters = {},
           .input_fingerprint = fingerprint};
 }
@@ -79,17 +82,17 @@ std::optional<Checkpoint> resumed_checkpoint(const Run& run, const CheckpointFil
                                              Resume resume) {
   std::optional<Checkpoint> from;
   if (resume != Resume::never && run.communicator.is_root()) try {
-      const bool same = read_checkpoint_fingerprint(files.last) == fingerprint &&
-                        read_checkpoint_fingerprint(files.best) == fingerprint;
+      const bool same = io::read_checkpoint_fingerprint(files.last) == fingerprint &&
+                        io::read_checkpoint_fingerprint(files.best) == fingerprint;
       check(same || resume != Resume::any || !std::filesystem::exists(files.last), files.last.string(),
             ": a checkpoint of another training");
-      if (same) from = read_checkpoint(files.last, graph, optimizer);
+      if (same) from = io::read_checkpoint(files.last, graph, optimizer);
     } catch (const Error& error) {
       if (resume == Resume::any) throw;
       run.say(joined("training starts anew: ", error.what()));
     }
   if (run.communicator.broadcast(from.has_value()) == 0) return {};
-  if (!from) from = read_checkpoint(files.last, graph, optimizer);
+  if (!from) from = io::read_checkpoint(files.last, graph, optimizer);
   run.say(joined("training: goes on after epoch ", from->epoch));
   return from;
 }
@@ -105,16 +108,18 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
   trainer.train(
       from ? std::move(*from)
-           : trainer.initial_state(trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
+           : trainer.initial_state(
+                 models::trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
       [&](const Checkpoint& state, bool is_best) {
         if (!run.communicator.is_root()) return;
         if (is_best) write_checkpoint(files.best, state);
         write_checkpoint(files.last, state);
-        write_atomically(run.folder / "metrics.csv", state.metrics);
+        io::write_atomically(run.folder / "metrics.csv", state.metrics);
       },
       run.messages);
   run.communicator.barrier();  // the root process has written what all read
-  take_trained(read_checkpoint_parameters(files.best, graph), model.backbone_parameters, model.head_parameters);
+  models::take_trained(io::read_checkpoint_parameters(files.best, graph), model.backbone_parameters,
+                       model.head_parameters);
 }
 
 Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint,
@@ -134,7 +139,7 @@ Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, 
   std::optional<TrainingSet> validation_set;
   if (config.training.validation_categories > 0)
     validation_set.emplace(run.dataset, *inputs, scores, validating, target, model.angles);
-  const Graph trained = trained_graph(backbone.graph(), from, output, model.head);
+  const Graph trained = models::trained_graph(backbone.graph(), from, output, model.head);
   run.say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
                  validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, run, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
@@ -149,17 +154,17 @@ Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores,
                        .content = "SV-net",
                        .resume = resume};
   const auto make = [&] { return make_model(run, features, scores, file.fingerprint, resume); };
-  return reuse_or_make(run, file, read_model, make, write_model);
+  return reuse_or_make(run, file, io::read_model, make, io::write_model);
 }
 
 Model trained_model(const Run& run, FeaturesStage& features) {
   const auto path = run.folder / "model.safetensors";
   check(std::filesystem::exists(path), run.folder.string(), ": holds no trained model; run svnet-train first");
-  Model model = read_model(path);
+  Model model = io::read_model(path);
   check(model.input_fingerprint == wanted_fingerprint(run, features), path.string(),
         ": was trained with another configuration, other pictures or other weights; run svnet-train with this "
         "configuration first");
   return model;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -5,7 +5,7 @@
 #include "train/stages/features.h"
 #include "train/stages/resume.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The third stage: trains SV-net, in checkpoint-*.safetensors, metrics.csv and model.safetensors. `resume` says what
 /// to do with the model and the checkpoints of an earlier run.
@@ -14,4 +14,4 @@ Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores,
 /// The model in the run folder. Throws Error if there is none, or if it was trained with another configuration.
 Model trained_model(const Run& run, FeaturesStage& features);
 
-}  // namespace svnet
+}  // namespace svnet::train

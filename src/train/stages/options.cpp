@@ -3,7 +3,7 @@
 #include "base/error.h"
 #include "view/symmetry.h"
 
-namespace svnet {
+namespace svnet::train {
 
 std::string sampler_text(const Config::Scores& s) {
   const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
@@ -11,7 +11,7 @@ std::string sampler_text(const Config::Scores& s) {
                 " to ", bound(s.max_objects), ", one pose, one view; singletons ", name_of(s.singletons));
 }
 
-ScoreOptions score_options(const Config& config, Index dimension) {
+semantics::ScoreOptions score_options(const Config& config, Index dimension) {
   const auto& s = config.scores;
   return {.problems = static_cast<std::uint64_t>(s.problems),
           .min_samples = static_cast<std::uint64_t>(s.min_samples),
@@ -22,11 +22,11 @@ ScoreOptions score_options(const Config& config, Index dimension) {
 }
 
 int scored_orientations(const Config& config) {
-  return config.sv_net.orientations == Orientations::all ? kSymmetries : 1;
+  return config.sv_net.orientations == Orientations::all ? view::kSymmetries : 1;
 }
 
 int trained_orientations(const Config& config) {
-  return config.training.augmentation == TopViewAugmentation::turns ? kSymmetries : 1;
+  return config.training.augmentation == TopViewAugmentation::turns ? view::kSymmetries : 1;
 }
 
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
@@ -48,4 +48,4 @@ Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch) {
           .total = t.epochs * steps_per_epoch};
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

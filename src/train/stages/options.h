@@ -5,7 +5,7 @@
 #include "train/config/config.h"
 #include "train/trainer.h"
 
-namespace svnet {
+namespace svnet::train {
 
 // The options of the stages as a configuration says them.
 
@@ -13,7 +13,7 @@ namespace svnet {
 std::string sampler_text(const Config::Scores& config);
 
 /// What `config.scores` and `config.seed` say of scores of features of that dimension.
-ScoreOptions score_options(const Config& config, Index dimension);
+semantics::ScoreOptions score_options(const Config& config, Index dimension);
 
 /// Orientations of the top image whose mean a score is.
 int scored_orientations(const Config& config);
@@ -23,4 +23,4 @@ int trained_orientations(const Config& config);
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint);
 Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch);
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -6,7 +6,7 @@
 #include "predict/score_head.h"
 #include "train/view_inputs.h"
 
-namespace svnet {
+namespace svnet::train {
 namespace {
 
 /// What the head takes, for every view. The features of the first stage serve if the backbone was not trained.
@@ -25,7 +25,7 @@ std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features,
 
 std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_stage, const Model& model) {
   const std::unique_ptr<ViewInputs> inputs = head_inputs(run, features_stage, model);
-  const ScoreHead head(model, run.inference);
+  const predict::ScoreHead head(model, run.inference);
   const Index dimension = head.feature_count();
   const auto pose_count = static_cast<Index>(run.dataset.poses.size());
   std::vector<double> predicted;
@@ -40,7 +40,7 @@ std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_sta
     for (Index pose = first; pose < last; ++pose) {
       Tensor top = Tensor::empty({1, dimension});
       std::copy_n(features.data<float>() + (pose - first) * dimension, dimension, top.data<float>());
-      std::vector<CameraPose> candidates;
+      std::vector<view::CameraPose> candidates;
       for (const View& view : run.dataset.views_of(pose))
         candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
       const std::vector<float> scores = head.scores(top, candidates);
@@ -50,4 +50,4 @@ std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_sta
   return predicted;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -1,6 +1,6 @@
 #pragma once
 
-namespace svnet {
+namespace svnet::train {
 
 /// What a stage does with a file that an earlier run left: with the result, a snapshot of the scores or a checkpoint.
 enum class Resume {
@@ -9,4 +9,4 @@ enum class Resume {
   any     ///< resume from it; throw Error if its fingerprint differs or it cannot be read
 };
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -7,7 +7,7 @@
 #include "train/run.h"
 #include "train/stages/resume.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The file that a stage writes.
 struct StageFile {
@@ -55,4 +55,4 @@ auto reuse_or_make(const Run& run, const StageFile& file, const Read& read, cons
   return made;
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -12,13 +12,15 @@
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
 
-namespace svnet {
+namespace svnet::train {
+using semantics::ScoreSums;
+
 namespace {
 
 /// Puts the work of a snapshot into `sums`. Throws Error if `path` is no snapshot, or if it is one of other scores and
 /// Resume is any; one of other scores is ignored if Resume is same.
 void take_snapshot(const std::filesystem::path& path, const std::string& fingerprint, Resume how, ScoreSums& sums) {
-  const ScoresSnapshot snapshot = read_scores_snapshot(path);
+  const io::ScoresSnapshot snapshot = io::read_scores_snapshot(path);
   if (how == Resume::same && snapshot.input_fingerprint != fingerprint) return;
   check(snapshot.input_fingerprint == fingerprint, path.string(),
         ": a snapshot of other scores (other features, options or seed); repeat the command that made it, or leave out "
@@ -58,10 +60,10 @@ class Snapshots {
   void write_if_due(const ScoreSums& sums) {
     if (path_.empty() || std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
     const auto values = sums.values();
-    write_scores_snapshot(path_, {fingerprint_,
-                                  static_cast<Index>(sums.problems),
-                                  static_cast<Index>(sums.views.size()),
-                                  {values.begin(), values.end()}});
+    io::write_scores_snapshot(path_, {fingerprint_,
+                                      static_cast<Index>(sums.problems),
+                                      static_cast<Index>(sums.views.size()),
+                                      {values.begin(), values.end()}});
     last_ = Clock::now();
   }
 
@@ -80,19 +82,19 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
                    const ScoringOptions& how) {
   Config::Scores drawn = config.scores;
   drawn.min_categories = fewest_categories(excluded, drawn);
-  const DistanceMatrix distances = squared_distances(features.values.data(), features.count, features.dimension,
-                                                     Parallel::shared(), how.communicator);
-  const ClusteringProblems problems = clustering_problems(dataset, excluded, drawn);
-  const ScoreOptions options = score_options(config, features.dimension);
+  const semantics::DistanceMatrix distances = semantics::squared_distances(
+      features.values.data(), features.count, features.dimension, Parallel::shared(), how.communicator);
+  const semantics::ClusteringProblems problems = clustering_problems(dataset, excluded, drawn);
+  const semantics::ScoreOptions options = score_options(config, features.dimension);
   const std::string fingerprint = scores_fingerprint(features.input_fingerprint, config);
 
-  const std::filesystem::path snapshot = snapshot_path(path);
+  const std::filesystem::path snapshot = io::snapshot_path(path);
   ScoreSums sums = first_sums(snapshot, fingerprint, problems.views(), messages, how);
   Snapshots snapshots(how.communicator.is_root() ? snapshot : std::filesystem::path(), how.snapshot_seconds,
                       fingerprint);
   continue_scores(distances, problems, options, Parallel::shared(), how.communicator, sums,
                   {&messages, [&](const ScoreSums& so_far) { snapshots.write_if_due(so_far); }});
-  SemanticScores made = scores_from(sums);
+  semantics::SemanticScores made = scores_from(sums);
 
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
                              .seed = options.seed,
@@ -107,14 +109,14 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
                 std::move(made.standard_error),
                 rank_stability(sums, problems.pose_of_view()),
                 features.paths};
-  scores.scaled = scaled_per_pose(scores.individual, problems.pose_of_view());
+  scores.scaled = semantics::scaled_per_pose(scores.individual, problems.pose_of_view());
   return scores;
 }
 
 void write_made_scores(const std::filesystem::path& path, const Scores& scores) {
-  write_scores(path, scores);
+  io::write_scores(path, scores);
   std::error_code no_snapshot;
-  std::filesystem::remove(snapshot_path(path), no_snapshot);
+  std::filesystem::remove(io::snapshot_path(path), no_snapshot);
 }
 
 Scores scores_stage(const Run& run, FeaturesStage& features_stage) {
@@ -127,7 +129,7 @@ Scores scores_stage(const Run& run, FeaturesStage& features_stage) {
     return make_scores(file.path, run.dataset, features, run.held_out, config, run.messages,
                        {.resume = Resume::same, .communicator = run.communicator});
   };
-  return reuse_or_make(run, file, read_scores, make, write_made_scores);
+  return reuse_or_make(run, file, io::read_scores, make, write_made_scores);
 }
 
-}  // namespace svnet
+}  // namespace svnet::train

@@ -11,7 +11,7 @@
 #include "train/stages/features.h"
 #include "train/stages/resume.h"
 
-namespace svnet {
+namespace svnet::train {
 
 /// The second stage: Monte-Carlo scores of every view, in scores.h5. Views of held-out categories have none. Resumes
 /// from the snapshot of an interrupted run if that was making the same scores.
@@ -34,4 +34,4 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
 /// Writes the scores to `path` and removes the snapshot that make_scores left beside it.
 void write_made_scores(const std::filesystem::path& path, const Scores& scores);
 
-}  // namespace svnet
+}  // namespace svnet::train

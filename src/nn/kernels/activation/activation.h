@@ -14,15 +14,15 @@ namespace svnet {
 
 enum class Activation { none, relu, relu6, sigmoid, hard_sigmoid, hard_swish, softmax };
 
-template <>
-inline constexpr auto enum_names<Activation> =
-    std::to_array<EnumName<Activation>>({{Activation::none, "linear"},
-                                         {Activation::relu, "relu"},
-                                         {Activation::relu6, "relu6"},
-                                         {Activation::sigmoid, "sigmoid"},
-                                         {Activation::hard_sigmoid, "hard_sigmoid"},
-                                         {Activation::hard_swish, "hard_swish"},
-                                         {Activation::softmax, "softmax"}});
+constexpr auto enum_table(Activation) {
+  return std::to_array<EnumName<Activation>>({{Activation::none, "linear"},
+                                              {Activation::relu, "relu"},
+                                              {Activation::relu6, "relu6"},
+                                              {Activation::sigmoid, "sigmoid"},
+                                              {Activation::hard_sigmoid, "hard_sigmoid"},
+                                              {Activation::hard_swish, "hard_swish"},
+                                              {Activation::softmax, "softmax"}});
+}
 
 namespace kernels {
 
