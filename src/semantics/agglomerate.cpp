@@ -24,6 +24,32 @@ namespace svnet::semantics {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
+/// Whether the update of the dissimilarities needs the sizes of the clusters.
+constexpr bool uses_sizes(Linkage linkage) {
+  switch (linkage) {
+    case Linkage::ward:
+    case Linkage::average:
+      return true;
+    case Linkage::complete:
+    case Linkage::single:
+      return false;
+  }
+  return true;
+}
+
+/// Whether the dissimilarities are distances; otherwise they are squared distances.
+constexpr bool uses_roots(Linkage linkage) {
+  switch (linkage) {
+    case Linkage::average:
+      return true;
+    case Linkage::ward:
+    case Linkage::complete:
+    case Linkage::single:
+      return false;
+  }
+  return false;
+}
+
 // At most 16 lanes, so that padded rows hold whole vectors.
 using Floats = hn::CappedTag<float, 16>;
 using Ints = hn::RebindToSigned<Floats>;
@@ -117,7 +143,7 @@ HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
       const auto slot = hn::Set(di, static_cast<std::int32_t>(j));
       const auto inside = hn::RebindMask(d, hn::Lt(column, slot));
       auto here = hn::IfThenElseZero(inside, hn::Load(d, given + i));
-      if (linkage == Linkage::average) here = hn::Sqrt(here);
+      if (uses_roots(linkage)) here = hn::Sqrt(here);
       hn::Store(here, d, row + i);
       const auto nearer = hn::And(inside, hn::Lt(here, value));
       value = hn::IfThenElse(nearer, here, value);
@@ -236,17 +262,24 @@ HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a
   for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
     const Index i = v * lanes;
     const auto to_a = hn::Load(d, row_a + i), to_b = hn::Load(d, row_b + i);
-    FloatVector value;
-    if constexpr (kIsWard) {
-      const auto size = hn::Load(d, s.size + i);
-      const auto sum = hn::Add(hn::Mul(hn::Add(size, of_a), to_a), hn::Mul(hn::Add(size, of_b), to_b));
-      value = hn::Div(hn::Sub(sum, hn::Mul(size, between)), hn::Add(size, both));
-    } else if (linkage == Linkage::average) {
-      value = hn::Div(hn::Add(hn::Mul(of_a, to_a), hn::Mul(of_b, to_b)), both);
-    } else if (linkage == Linkage::complete) {
-      value = hn::Max(to_a, to_b);
-    } else {
-      value = hn::Min(to_a, to_b);
+    FloatVector value = infinity;
+    switch (kIsWard ? Linkage::ward : linkage) {
+      case Linkage::ward:
+        if constexpr (kIsWard) {
+          const auto size = hn::Load(d, s.size + i);
+          const auto sum = hn::Add(hn::Mul(hn::Add(size, of_a), to_a), hn::Mul(hn::Add(size, of_b), to_b));
+          value = hn::Div(hn::Sub(sum, hn::Mul(size, between)), hn::Add(size, both));
+        }
+        break;
+      case Linkage::average:
+        value = hn::Div(hn::Add(hn::Mul(of_a, to_a), hn::Mul(of_b, to_b)), both);
+        break;
+      case Linkage::complete:
+        value = hn::Max(to_a, to_b);
+        break;
+      case Linkage::single:
+        value = hn::Min(to_a, to_b);
+        break;
     }
     value = hn::Add(value, hn::Load(d, s.gone + i));
     hn::Store(value, d, row_a + i);
@@ -264,7 +297,7 @@ HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a
     }
     other = smallest_bound<kVectors>(s);
   }
-  if (kIsWard || linkage == Linkage::average) set(s.size, a, both);
+  if (uses_sizes(kIsWard ? Linkage::ward : linkage)) set(s.size, a, both);
   const Candidate next = conclude<kVectors>(s, a, later, other);
 
   float* HWY_RESTRICT to = s.dissimilarity + a;

@@ -3,6 +3,7 @@
 #include <span>
 #include <variant>
 
+#include "base/error.h"
 #include "semantics/agglomerative.h"
 #include "semantics/kmeans.h"
 
@@ -24,6 +25,27 @@ struct ClusteringOptions {
   Index dimension = 1;  ///< of the features; used by the tolerance of k-means
 };
 
+/// One alternative per algorithm. Each has cluster(distances, k, labels) and cluster(distances, rows, k, labels), or
+/// the same with a RandomStream before the labels.
+using ClusteringAlgorithm = std::variant<Agglomerative, KMeans>;
+
+inline ClusteringAlgorithm clustering_algorithm(const ClusteringOptions& options, Index max_points,
+                                                Index max_clusters) {
+  switch (options.method) {
+    case Clustering::ward:
+      return Agglomerative(Linkage::ward, max_points);
+    case Clustering::average:
+      return Agglomerative(Linkage::average, max_points);
+    case Clustering::complete:
+      return Agglomerative(Linkage::complete, max_points);
+    case Clustering::single:
+      return Agglomerative(Linkage::single, max_points);
+    case Clustering::kmeans:
+      return KMeans(max_points, max_clusters, options.dimension, options.kmeans);
+  }
+  fail("[clustering] no algorithm has this number");
+}
+
 /// The clustering algorithm of the options, with its memory. Not thread-safe: use one object per thread.
 class Clusterer {
  public:
@@ -38,7 +60,7 @@ class Clusterer {
                std::span<std::int32_t> labels);
 
  private:
-  std::variant<Agglomerative, KMeans> algorithm_;
+  ClusteringAlgorithm algorithm_;
 };
 
 }  // namespace svnet::semantics
