@@ -15,7 +15,7 @@ constexpr Index kChunk = 1 << 15;
 template <class T, class Body>
 void fill(Tensor& to, const Body& body) {
   T* values = to.data<T>();
-  pool().for_chunks(to.size(), kChunk, [&](Index begin, Index end, int) {
+  thread_pool().for_chunks(to.size(), kChunk, [&](Index begin, Index end, int) {
     for (Index i = begin; i < end; ++i) values[i] = body(i);
   });
 }
@@ -45,7 +45,7 @@ Tensor rowwise_softmax(const char* op, const Tensor& x) {
   const Index rows = leading(op, x), classes = x.dim(-1);
   Tensor y = Tensor::empty(x.shape(), x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
-    pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
+    thread_pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
       for (Index row = begin; row < end; ++row)
         Softmax::row(classes, x.data<T>() + row * classes, y.data<T>() + row * classes);
     });
@@ -53,7 +53,7 @@ Tensor rowwise_softmax(const char* op, const Tensor& x) {
   return autograd::record(y, {x}, [=](const Tensor& dy, autograd::Gradients& g) {
     Tensor dx = Tensor::empty(y.shape(), y.dtype());
     with_dtype(y.dtype(), [&]<class T>() {
-      pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
+      thread_pool().for_chunks(rows, 16, [&](Index begin, Index end, int) {
         for (Index row = begin; row < end; ++row) {
           const T *p = y.data<T>() + row * classes, *d = dy.data<T>() + row * classes;
           T dot{0};

@@ -43,7 +43,7 @@ Tensor normalised(const Tensor& x, const Tensor& gamma, const Tensor& beta, cons
       scale[static_cast<std::size_t>(c)] = static_cast<T>(norm.scale);
       shift[static_cast<std::size_t>(c)] = static_cast<T>(norm.shift());
     }
-    kernels::scale_shift(pool(), {.rows = rows, .channels = channels}, x.data<T>(), scale.data(), shift.data(),
+    kernels::scale_shift(thread_pool(), {.rows = rows, .channels = channels}, x.data<T>(), scale.data(), shift.data(),
                          kernels::Clamp::none, y.data<T>());
   });
   return y;
@@ -71,11 +71,11 @@ ChannelGradients channel_gradients(const Tensor& x, const Tensor& mean, const Te
   Tensor hat = Tensor::empty(x.shape(), x.dtype());
   std::vector<T> shift(static_cast<std::size_t>(channels));
   for (Index c = 0; c < channels; ++c) shift[static_cast<std::size_t>(c)] = -mean.data<T>()[c] * inverse.data<T>()[c];
-  kernels::scale_shift(pool(), shape, x.data<T>(), inverse.data<T>(), shift.data(), kernels::Clamp::none,
+  kernels::scale_shift(thread_pool(), shape, x.data<T>(), inverse.data<T>(), shift.data(), kernels::Clamp::none,
                        hat.data<T>());
   ChannelGradients sums{Tensor::empty({channels}, x.dtype()), Tensor::empty({channels}, x.dtype())};
-  kernels::column_sums<T>(pool(), shape, dy.data<T>(), nullptr, sums.beta.data<T>());
-  kernels::column_sums<T>(pool(), shape, dy.data<T>(), hat.data<T>(), sums.gamma.data<T>());
+  kernels::column_sums<T>(thread_pool(), shape, dy.data<T>(), nullptr, sums.beta.data<T>());
+  kernels::column_sums<T>(thread_pool(), shape, dy.data<T>(), hat.data<T>(), sums.gamma.data<T>());
   return sums;
 }
 
@@ -87,7 +87,7 @@ Tensor input_gradient(const Tensor& x, const Tensor& dy, const std::vector<T>& s
   Tensor dx = Tensor::empty(x.shape(), x.dtype());
   const T *values = x.data<T>(), *from = dy.data<T>();
   T* to = dx.data<T>();
-  pool().for_chunks(x.size() / channels, 64, [&](Index begin, Index end, int) {
+  thread_pool().for_chunks(x.size() / channels, 64, [&](Index begin, Index end, int) {
     for (Index row = begin; row < end; ++row)
       for (Index c = 0; c < channels; ++c) {
         const auto j = static_cast<std::size_t>(c);
@@ -107,7 +107,8 @@ Tensor batch_norm_training(const Tensor& x, const Tensor& gamma, const Tensor& b
   check(rows >= 2, "[batch_norm] training needs at least 2 values per channel, got ", to_string(x.shape()));
   Tensor mean = Tensor::empty({channels}, x.dtype()), variance = Tensor::empty({channels}, x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
-    kernels::moments<T>(pool(), {.rows = rows, .channels = channels}, x.data<T>(), mean.data<T>(), variance.data<T>());
+    kernels::moments<T>(thread_pool(), {.rows = rows, .channels = channels}, x.data<T>(), mean.data<T>(),
+                        variance.data<T>());
   });
   const auto n = static_cast<double>(rows);
   update_moving_statistics(moving_mean, mean, 1.0, options);

@@ -7,8 +7,8 @@
 
 namespace svnet::ops {
 
-/// The pool that operations run on.
-inline Parallel& pool() { return Parallel::shared(); }
+/// The threads that operations run on.
+inline Parallel& thread_pool() { return Parallel::shared(); }
 
 /// "8x32x32x4 * 3x3x4x16".
 inline std::string shapes(const Tensor& a, const Tensor& b) {

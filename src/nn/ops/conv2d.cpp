@@ -28,7 +28,7 @@ bool uses_winograd(const kernels::Conv2dShape& s, DType dtype, kernels::Convolut
 
 Tensor direct_forward(const kernels::Conv2dShape& s, const Tensor& x, const Tensor& w) {
   Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.k}, x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() { kernels::conv2d(pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
+  with_dtype(x.dtype(), [&]<class T>() { kernels::conv2d(thread_pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
   return y;
 }
 
@@ -37,8 +37,8 @@ Tensor scratch(Index count) { return Tensor::empty({count}); }
 
 Tensor winograd_forward(const Window& window, const Tensor& x, const kernels::WinogradWeights& weights) {
   Tensor y = Tensor::empty({window.n, window.oh, window.ow, weights.k});
-  Tensor memory = scratch(kernels::winograd_scratch(window, weights, pool().threads()));
-  kernels::winograd_conv2d(pool(), window, x.data<float>(), weights, {}, y.data<float>(), memory.data<float>());
+  Tensor memory = scratch(kernels::winograd_scratch(window, weights, thread_pool().threads()));
+  kernels::winograd_conv2d(thread_pool(), window, x.data<float>(), weights, {}, y.data<float>(), memory.data<float>());
   return y;
 }
 
@@ -47,8 +47,9 @@ Tensor input_gradient(const kernels::Conv2dShape& s, bool winograd, const Tensor
     return winograd_forward(s.window.input_gradient(s.k), dy,
                             kernels::winograd_flipped_weights(s.window.c, s.k, w.data<float>()));
   Tensor dx = Tensor::empty({s.window.n, s.window.h, s.window.w, s.window.c}, dy.dtype());
-  with_dtype(dy.dtype(),
-             [&]<class T>() { kernels::conv2d_input_gradient(pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>()); });
+  with_dtype(dy.dtype(), [&]<class T>() {
+    kernels::conv2d_input_gradient(thread_pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>());
+  });
   return dx;
 }
 
@@ -56,12 +57,13 @@ Tensor weight_gradient(const kernels::Conv2dShape& s, bool winograd, const Tenso
   Tensor dw = Tensor::empty({s.window.kh, s.window.kw, s.window.c, s.k}, dy.dtype());
   if (winograd) {
     Tensor memory = scratch(kernels::winograd_weight_gradient_scratch(s.window, s.k));
-    kernels::winograd_weight_gradient(pool(), s.window, s.k, x.data<float>(), dy.data<float>(), dw.data<float>(),
+    kernels::winograd_weight_gradient(thread_pool(), s.window, s.k, x.data<float>(), dy.data<float>(), dw.data<float>(),
                                       memory.data<float>());
     return dw;
   }
-  with_dtype(dy.dtype(),
-             [&]<class T>() { kernels::conv2d_weight_gradient(pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>()); });
+  with_dtype(dy.dtype(), [&]<class T>() {
+    kernels::conv2d_weight_gradient(thread_pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>());
+  });
   return dw;
 }
 
@@ -83,17 +85,18 @@ Tensor conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
 Tensor depthwise_conv2d(const Tensor& x, const Tensor& w, const ConvOptions& options) {
   const kernels::DepthwiseShape s{.window = window("depthwise_conv2d", x, w, options), .multiplier = w.dim(3)};
   Tensor y = Tensor::empty({s.window.n, s.window.oh, s.window.ow, s.window.c * s.multiplier}, x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() { kernels::depthwise(pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
+  with_dtype(x.dtype(),
+             [&]<class T>() { kernels::depthwise(thread_pool(), s, x.data<T>(), w.data<T>(), y.data<T>()); });
   return autograd::record(y, {x, w}, [s, x = x.detached(), w = w.detached()](const Tensor& dy, autograd::Gradients& g) {
     with_dtype(dy.dtype(), [&]<class T>() {
       if (g.wants(0)) {
         Tensor dx = Tensor::empty(x.shape(), x.dtype());
-        kernels::depthwise_input_gradient(pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>());
+        kernels::depthwise_input_gradient(thread_pool(), s, dy.data<T>(), w.data<T>(), dx.data<T>());
         g.add(0, dx);
       }
       if (g.wants(1)) {
         Tensor dw = Tensor::empty(w.shape(), w.dtype());
-        kernels::depthwise_weight_gradient(pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>());
+        kernels::depthwise_weight_gradient(thread_pool(), s, x.data<T>(), dy.data<T>(), dw.data<T>());
         g.add(1, dw);
       }
     });

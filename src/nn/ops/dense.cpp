@@ -17,11 +17,11 @@ template <class Multiply>
 Tensor shared_product(Communicator* communicator, Index rows, Index columns, DType dtype, const Multiply& multiply) {
   if (communicator == nullptr || communicator->size() == 1) {
     Tensor y = Tensor::empty({rows, columns}, dtype);
-    multiply(pool(), y);
+    multiply(thread_pool(), y);
     return y;
   }
   Tensor y = Tensor::zeros({rows, columns}, dtype);
-  Parallel share = pool().share(*communicator);
+  Parallel share = thread_pool().share(*communicator);
   multiply(share, y);
   communicator->all_reduce({y.data<float>(), static_cast<std::size_t>(y.size())});
   return y;
@@ -67,7 +67,7 @@ Tensor bias_add(const Tensor& x, const Tensor& bias) {
   with_dtype(x.dtype(), [&]<class T>() {
     const T *from = x.data<T>(), *b = bias.data<T>();
     T* to = y.data<T>();
-    pool().for_chunks(rows, 64, [&](Index begin, Index end, int) {
+    thread_pool().for_chunks(rows, 64, [&](Index begin, Index end, int) {
       for (Index row = begin; row < end; ++row)
         for (Index c = 0; c < channels; ++c) to[row * channels + c] = from[row * channels + c] + b[c];
     });
@@ -76,7 +76,8 @@ Tensor bias_add(const Tensor& x, const Tensor& bias) {
     if (g.wants(1)) {
       Tensor db = Tensor::empty({channels}, dy.dtype());
       with_dtype(dy.dtype(), [&]<class T>() {
-        kernels::column_sums<T>(pool(), {.rows = rows, .channels = channels}, dy.data<T>(), nullptr, db.data<T>());
+        kernels::column_sums<T>(thread_pool(), {.rows = rows, .channels = channels}, dy.data<T>(), nullptr,
+                                db.data<T>());
       });
       g.add(1, db);
     }

@@ -15,7 +15,7 @@ Tensor masked(const Tensor& x, double rate, const DropoutKey& key) {
   Tensor y = Tensor::empty(x.shape(), x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
     const T scale = static_cast<T>(1.0 / (1.0 - rate));
-    pool().for_chunks((x.size() + 3) / 4, 4096, [&](Index begin, Index end, int) {
+    thread_pool().for_chunks((x.size() + 3) / 4, 4096, [&](Index begin, Index end, int) {
       for (Index step = begin; step < end; ++step) {
         const auto words = random_words(key.seed, Stream::dropout, key.index, static_cast<std::uint32_t>(step));
         for (Index i = 4 * step; i < std::min(4 * step + 4, x.size()); ++i)

@@ -19,7 +19,8 @@ kernels::MultiplyShape shape_of(const Tensor& x, bool per_channel) {
 
 Tensor product(const kernels::MultiplyShape& s, const Tensor& x, const Tensor& factor) {
   Tensor y = Tensor::empty(x.shape(), x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() { kernels::multiply(pool(), s, x.data<T>(), factor.data<T>(), y.data<T>()); });
+  with_dtype(x.dtype(),
+             [&]<class T>() { kernels::multiply(thread_pool(), s, x.data<T>(), factor.data<T>(), y.data<T>()); });
   return y;
 }
 
@@ -27,7 +28,7 @@ Tensor factor_gradient(const kernels::MultiplyShape& s, const Tensor& x, const T
   if (!s.per_channel) return product(s, dy, x);
   Tensor gradient = Tensor::empty(shape, x.dtype());
   with_dtype(x.dtype(), [&]<class T>() {
-    kernels::multiply_channel_gradient(pool(), s, x.data<T>(), dy.data<T>(), gradient.data<T>());
+    kernels::multiply_channel_gradient(thread_pool(), s, x.data<T>(), dy.data<T>(), gradient.data<T>());
   });
   return gradient;
 }

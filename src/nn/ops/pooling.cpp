@@ -28,11 +28,13 @@ Tensor max_pool2d(const Tensor& x, const WindowOptions& options) {
   const Window s = window("max_pool2d", x, options);
   Tensor y = Tensor::empty({s.n, s.oh, s.ow, s.c}, x.dtype());
   auto source = std::make_shared<std::vector<std::int64_t>>(static_cast<std::size_t>(y.size()));
-  with_dtype(x.dtype(), [&]<class T>() { kernels::max_pool(pool(), s, x.data<T>(), y.data<T>(), source->data()); });
+  with_dtype(x.dtype(),
+             [&]<class T>() { kernels::max_pool(thread_pool(), s, x.data<T>(), y.data<T>(), source->data()); });
   return autograd::record(y, {x}, [s, source](const Tensor& dy, autograd::Gradients& g) {
     Tensor dx = Tensor::empty({s.n, s.h, s.w, s.c}, dy.dtype());
-    with_dtype(dy.dtype(),
-               [&]<class T>() { kernels::max_pool_gradient(pool(), s, dy.data<T>(), source->data(), dx.data<T>()); });
+    with_dtype(dy.dtype(), [&]<class T>() {
+      kernels::max_pool_gradient(thread_pool(), s, dy.data<T>(), source->data(), dx.data<T>());
+    });
     g.add(0, dx);
   });
 }
@@ -40,10 +42,11 @@ Tensor max_pool2d(const Tensor& x, const WindowOptions& options) {
 Tensor average_pool2d(const Tensor& x, const WindowOptions& options) {
   const Window s = window("average_pool2d", x, options);
   Tensor y = Tensor::empty({s.n, s.oh, s.ow, s.c}, x.dtype());
-  with_dtype(x.dtype(), [&]<class T>() { kernels::average_pool(pool(), s, x.data<T>(), y.data<T>()); });
+  with_dtype(x.dtype(), [&]<class T>() { kernels::average_pool(thread_pool(), s, x.data<T>(), y.data<T>()); });
   return autograd::record(y, {x}, [s](const Tensor& dy, autograd::Gradients& g) {
     Tensor dx = Tensor::empty({s.n, s.h, s.w, s.c}, dy.dtype());
-    with_dtype(dy.dtype(), [&]<class T>() { kernels::average_pool_gradient(pool(), s, dy.data<T>(), dx.data<T>()); });
+    with_dtype(dy.dtype(),
+               [&]<class T>() { kernels::average_pool_gradient(thread_pool(), s, dy.data<T>(), dx.data<T>()); });
     g.add(0, dx);
   });
 }
