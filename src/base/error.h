@@ -12,7 +12,7 @@ class Error : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Memory ran out. Interfaces catch it as std::bad_alloc; its text says how much was needed.
+/// There is not enough memory. Interfaces catch it as std::bad_alloc. Its text says how much was needed.
 class NoMemory : public std::bad_alloc {
  public:
   explicit NoMemory(std::size_t bytes) : text_("no memory for " + std::to_string(bytes >> 20) + " MiB") {}
@@ -22,7 +22,7 @@ class NoMemory : public std::bad_alloc {
   std::string text_;
 };
 
-/// The parts as one text.
+/// The parts, written one after the other.
 template <class... Parts>
 std::string joined(const Parts&... parts) {
   std::ostringstream text;

@@ -3,9 +3,9 @@
 
 namespace svnet {
 
-/// While an object of this class exists, the number of threads of Parallel::shared() does not change: algorithms keep
-/// memory per thread between two calls. For interfaces that let any thread change the number (C, Python). Objects may
-/// be nested in one thread.
+/// Keeps the number of threads of Parallel::shared() while an object of this class exists. Computations hold one,
+/// because algorithms keep memory per thread between two calls. For interfaces (C, Python) in which any thread may
+/// change the number. One thread may hold several objects.
 class FixedThreads {
  public:
   FixedThreads();
@@ -17,8 +17,8 @@ class FixedThreads {
   std::shared_lock<std::shared_mutex> lock_;
 };
 
-/// Waits until no FixedThreads exists, then resizes Parallel::shared(). Throws Error like Parallel::resize, and if one
-/// exists in this thread, which would wait for itself.
+/// Waits until no FixedThreads exists, then resizes Parallel::shared(). Throws Error as Parallel::resize does. Also
+/// throws Error if this thread holds a FixedThreads, because it would wait for itself.
 void change_threads(int threads);
 
 }  // namespace svnet

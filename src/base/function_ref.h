@@ -8,8 +8,8 @@ namespace svnet {
 template <class Signature>
 class FunctionRef;
 
-/// A reference to a callable, for parameters. Unlike std::function it does not own the callable, which must outlive it,
-/// and never allocates.
+/// A parameter type for callables. It refers to the callable, which must outlive it. Unlike std::function it owns
+/// nothing and never allocates.
 template <class Result, class... Arguments>
 class FunctionRef<Result(Arguments...)> {
  public:

@@ -33,8 +33,8 @@ class Parallel {
   /// find them in the same caches. If bodies throw, the exception of the lowest chunk is rethrown. Allocates nothing.
   void for_chunks(Index count, Index chunk, Body body);
 
-  /// The same threads, but each call runs only this process's share of the chunks. For chunks that write to different
-  /// places; the processes exchange the results afterwards. The communicator must outlive the returned object.
+  /// Returns the same pool, but each call runs only this process's share of the chunks. Requires: chunks write to
+  /// different places. The caller exchanges the results afterwards. The communicator must outlive the returned object.
   Parallel share(const Communicator& communicator) const;
 
   /// The pool of the process. At first use it gets SVNET_THREADS threads, or as many as the affinity mask has CPUs.

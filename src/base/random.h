@@ -26,8 +26,8 @@ enum class Stream : std::uint32_t {
 /// under `key`, with the order of words of Random123.
 std::array<std::uint32_t, 4> philox4x32(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
 
-/// The words of sixteen steps of the counter, one after the other. With wide vectors this takes little more time than
-/// one step.
+/// The words of sixteen consecutive steps, in order. With wide vectors, sixteen steps take little more time than
+/// one.
 inline constexpr std::size_t kPhiloxRun = 16;
 using PhiloxRun = std::array<std::uint32_t, 4 * kPhiloxRun>;
 void philox4x32_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words);
@@ -66,8 +66,8 @@ class RandomStream {
     return low | (static_cast<std::uint64_t>(bits32()) << 32);
   }
 
-  /// Uniform in [0, n), n > 0: the high word of bits32() · n; a draw whose low word is below 2^32 mod n is rejected
-  /// (Lemire, "Fast random integer generation in an interval", 2019), so that every value is equally likely.
+  /// Uniform in [0, n), n > 0: the high word of bits32() · n. A draw whose low word is below 2^32 mod n is rejected, so
+  /// every value is equally likely (Lemire, "Fast random integer generation in an interval", 2019).
   std::uint32_t below(std::uint32_t n) {
     for (;;) {
       const std::uint64_t product = static_cast<std::uint64_t>(bits32()) * n;
@@ -79,8 +79,8 @@ class RandomStream {
   /// Uniform in [0, 1): the upper 53 bits of bits64() · 2^-53.
   double uniform() { return static_cast<double>(bits64() >> 11) * 0x1p-53; }
 
-  /// Standard normal: √(-2 ln(1 - u)) cos(2π v) of two uniforms u, v in that order (Box and Muller 1958, one of the
-  /// pair).
+  /// Standard normal: √(-2 ln(1 - u)) cos(2π v) of two uniforms u, v in that order. This is the first number of the
+  /// pair of Box and Muller (1958).
   double normal();
 
  private:
@@ -90,7 +90,7 @@ class RandomStream {
   std::size_t used_ = words_.size();
 };
 
-/// The first `count` entries become a uniform draw without replacement from items[0 … n), in draw order (Fisher–Yates).
+/// Moves `count` of the n items to the front: a uniform draw without replacement, in draw order (Fisher–Yates).
 template <class Item>
 void draw_without_replacement(RandomStream& random, Item* items, Index n, Index count) {
   for (Index i = 0; i < count; ++i) {

@@ -20,15 +20,15 @@ std::string joined_with(std::string_view separator, std::span<const std::string>
 /// "99.5 %" for 0.995.
 std::string percent(double share);
 
-/// Text of a file or of another library, made safe for a terminal: tabs and line breaks become spaces, other control
-/// characters '?'.
+/// Makes text of a file or of another library safe for a terminal. Tabs and line breaks become spaces, other control
+/// characters become '?'.
 char printable(char c);
 std::string printable(std::string_view text);
 
 /// The text with A to Z in lower case.
 std::string lower_case(std::string_view text);
 
-/// Whether all of `text` is a number; then sets `number`. The locale does not matter; spaces are not allowed.
+/// Sets `number` and returns true if all of `text` is a number, without spaces. The locale does not matter.
 template <class Number>
 bool parse_number(std::string_view text, Number& number) {
   const char* end = text.data() + text.size();

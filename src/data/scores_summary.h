@@ -7,15 +7,15 @@
 
 namespace svnet {
 
-/// In how many problems views were, and how well their scores are known. Means over nothing are NaN.
+/// The number of problems per view, and how certain the scores are. A mean over no views is NaN.
 struct ScoresSummary {
-  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max(), most = 0;  ///< problems of a view that was in any
-  std::size_t left_out = 0;                                                    ///< views that were in none
+  std::uint64_t fewest = std::numeric_limits<std::uint64_t>::max(), most = 0;  ///< problems per view, if not 0
+  std::size_t left_out = 0;                                                    ///< views that were in no problem
   double largest_error = 0, mean_error = 0, mean_stability = 0;
 };
 ScoresSummary summary(const Scores& scores);
 
-/// How well scores are known, in a line or two.
+/// The summary, as one or two lines.
 std::string certainty_text(const Scores& scores);
 
 }  // namespace svnet

@@ -10,9 +10,9 @@ namespace svnet::semantics {
 
 struct ProblemOptions {
   Index min_categories = 3;
-  Index max_categories = 0;  ///< 0, or more than there are: all categories that are not excluded
+  Index max_categories = 0;  ///< 0 or too large: all categories that are not excluded
   Index min_objects = 1;     ///< per category
-  Index max_objects = 0;     ///< per category; 0, or more than it has: all of its objects
+  Index max_objects = 0;     ///< per category; 0 or too large: all objects of the category
   std::vector<std::int64_t> excluded_categories{};
 };
 

@@ -11,9 +11,9 @@
 
 namespace svnet::semantics {
 
-/// Many problems at once, with the distances between the items of each. The distances of one problem are scattered over
-/// the whole matrix, so fetching them alone costs a cache miss each. Here the items of all problems are sorted by
-/// matrix row, and each row is read once, while it is in the cache, for all problems that need it.
+/// Many problems, each with the distances between its items. The distances of one problem are scattered over the whole
+/// matrix: to fetch them problem by problem costs a cache miss each. Here the items of all problems are sorted by
+/// matrix row. Each row is read once, for all problems that need it, while it is in the cache.
 ///
 /// The items of a problem are sorted by category, object and pose; the order of drawing does not matter.
 class ProblemBatch {
@@ -26,7 +26,7 @@ class ProblemBatch {
   /// Draws up to `wanted` problems from problem `first` on, fewer if memory is full. Returns their number, at least 1.
   std::uint64_t draw(std::uint64_t seed, std::uint64_t first, std::uint64_t wanted);
 
-  // Views, distances and number of categories of the p-th problem that was drawn last.
+  // Views, distances and number of categories of problem p of the last draw.
   std::span<const std::int32_t> rows(Index p) const { return std::span(&rows_[p * max_items_], item_count_[p]); }
   LowerTriangle distances(Index p) const { return {triangles_.data() + offset_[p], item_count_[p]}; }
   Index categories(Index p) const { return category_count_[p]; }

@@ -13,7 +13,7 @@ namespace svnet::semantics {
 struct ScoreSums {
   struct View {
     std::uint64_t count = 0;             ///< problems that contain the view
-    std::uint64_t individual_count = 0;  ///< problems in which it has an individual score: fewer with Singletons::skip
+    std::uint64_t individual_count = 0;  ///< problems that give it an individual score: fewer with Singletons::skip
     std::uint64_t individual = 0;        ///< sum of the individual scores
     std::uint64_t individual_squared = 0;
     std::uint64_t global = 0;  ///< sum of the global scores
@@ -24,7 +24,7 @@ struct ScoreSums {
     bool operator==(const View&) const = default;
   };
   static constexpr std::uint64_t kMostProblems = std::uint64_t{1} << 32;
-  std::uint64_t problems = 0;  ///< problems that were added; in the sums of a whole run these are 0 to problems - 1
+  std::uint64_t problems = 0;  ///< number of problems added; in a whole run they are 0 to problems - 1
   std::vector<View> views;
 
   ScoreSums() = default;

@@ -14,7 +14,7 @@ struct ScoreOptions {
   // Stopping rules. 0: off. At least one is needed; the first that holds stops.
   std::uint64_t problems = 0;     ///< stop after exactly N problems
   std::uint64_t min_samples = 0;  ///< stop once every view that can be drawn has been in at least N problems
-  double target_error = 0;        ///< stop once every standard error is at most this, each from at least 100 scores
+  double target_error = 0;        ///< stop once every view has 100 scores and no standard error is larger
 
   std::uint64_t seed = 0;
   Singletons singletons = Singletons::zero;
@@ -31,7 +31,7 @@ struct ScoreProgress {
 };
 
 /// Adds problems to `sums`, from problem sums.problems on, until a stopping rule holds. Requires: `sums` hold problems
-/// 0 to sums.problems - 1, and are the same in every process of the communicator, as they are afterwards.
+/// 0 to sums.problems - 1, and all processes of the communicator have equal sums. Afterwards they are equal again.
 ///
 /// min_samples and target_error are checked at multiples of 2^14 problems; from 2^21 problems on at multiples of 2^15,
 /// from 2^22 on of 2^16, and so on. So the result depends neither on the number of threads or processes nor on

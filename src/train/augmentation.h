@@ -4,7 +4,7 @@
 
 namespace svnet::train {
 
-/// How much a picture is changed at random, so that a network learns to ignore such changes. 0: not at all.
+/// The size of random changes of an image. A network learns to ignore such changes. 0: no change.
 struct Augmentation {
   double zoom = 0.25;       ///< the object becomes larger or smaller by a factor of up to 1 + this
   double shift = 0.08;      ///< as a fraction of the picture's sides, in all directions

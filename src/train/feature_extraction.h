@@ -8,8 +8,8 @@
 namespace svnet::train {
 
 /// Returns the features of every view of the dataset, in its order, with `origin` copied into them. While a batch runs
-/// through the backbone, other threads read and prepare the images of the next one; with one thread, one follows the
-/// other. The processes of the communicator share the batches, and each gets all features. The bits do not depend on
+/// through the backbone, other threads read and prepare the images of the next one; a single thread does both in turn.
+/// The processes of the communicator share the batches, and each gets all features. The bits do not depend on
 /// the number of threads and processes, or on the images that share a batch.
 Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator);

@@ -34,9 +34,9 @@ struct Run {
   void say(const std::string& line) const;
 };
 
-/// Returns the run. Makes its folder if there is none, hashes the dataset's images, and checks before any work what
-/// the configuration asks for: categories, backbones, layers, weights, pipelines, selectors, problems. Throws Error if
-/// something does not fit.
+/// Makes the run's folder if there is none, hashes the dataset's images, and checks the configuration before any work:
+/// categories, backbones, layers, weights, pipelines, selectors, problems. Throws Error if something does not fit.
+/// Returns the run.
 Run make_run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages,
              Communicator& communicator = SingleProcess::shared(), const InferenceOptions& inference = {});
 

@@ -21,29 +21,29 @@ struct ViewScores {
   std::span<const double> individual, global;
 };
 
-/// What selectors can choose by.
+/// What selectors may base their choice on.
 struct SelectorInputs {
   const ViewDataset& dataset;
   std::function<ViewScores()> scores;  ///< in problems of the table's own categories; computed on the first call
   std::span<const double> predicted;   ///< SV-net's score of every view
 };
 
-/// The categories that a table is about.
+/// Which categories a table covers.
 enum class Split { training, held_out };
 
 /// One selector that a configuration can name.
 struct SelectorKind {
   const char* name;
   const char* help;               ///< what it chooses, in a few words
-  bool of_training, of_held_out;  ///< whether the table of this split has it if no selectors are named
+  bool of_training, of_held_out;  ///< whether it is a default of the split's table
   std::vector<std::int32_t> (*view)(const SelectorInputs& inputs);
 };
 
 /// All selectors. To add one, add an entry to the table in selectors.cpp.
 std::span<const SelectorKind> selector_kinds();
 
-/// The selectors `names`, in their order, or those that the table of the split has by default if there are no names.
-/// Throws Error with the nearest name if a name is unknown.
+/// The selectors with these names, in their order. Without names: the defaults of the split's table. Throws Error with
+/// the nearest name if a name is unknown.
 std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::string>& names, Split split);
 
 /// The top view of each pose.

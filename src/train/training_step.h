@@ -26,9 +26,9 @@ struct StepResult {
   double loss = 0;
 };
 
-/// One step of training: runs the graph on a batch, takes `loss(output)`, a scalar, runs backwards and changes the
-/// graph's trainable parameters by the optimizer, whose count of steps numbers this one. Throws Error if the loss or a
-/// gradient is not finite; the parameters are then as before, but for moving statistics.
+/// One training step: runs the graph on a batch, computes the scalar `loss(output)` and the gradients, and lets the
+/// optimizer change the trainable parameters. The step's number is the optimizer's count of steps. Throws Error if the
+/// loss or a gradient is not finite; then only moving statistics have changed.
 StepResult training_step(const Graph& graph, Parameters& parameters, Optimizer& optimizer,
                          const std::vector<Tensor>& inputs, const std::function<Tensor(const Tensor& output)>& loss,
                          const StepOptions& options);

@@ -5,8 +5,9 @@
 
 namespace svnet::train {
 
-/// Per category, whether it chooses the best checkpoint: training.validation_categories of those that are not held
-/// out, drawn at random. Throws Error if that leaves fewer than 2 categories to train on.
+/// Returns, per category, whether it is one for validation: their loss chooses the best checkpoint. Draws
+/// training.validation_categories of the categories that are not held out. Throws Error if fewer than 2 are left to
+/// train on.
 std::vector<bool> validation_categories(const std::vector<bool>& held_out, const Config& config);
 
 }  // namespace svnet::train

@@ -35,8 +35,8 @@ class FeatureInputs : public ViewInputs {
   const Features& features_;
 };
 
-/// The images of the views, after the frozen layers of the graph if there are any. Images are read again each time, but
-/// for those that keep() keeps in memory. An input has the same bits in every batch.
+/// The images of the views, or what the graph's frozen layers make of them. Images are read for each batch, except
+/// those that keep() holds in memory. An input has the same bits in every batch.
 class PictureInputs : public ViewInputs {
  public:
   struct Options {

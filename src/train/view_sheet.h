@@ -12,7 +12,7 @@ namespace svnet::train {
 /// every selector has a view for each of the poses.
 Image view_sheet(const ViewDataset& dataset, std::span<const Index> poses, std::span<const Selector> selectors);
 
-/// The first pose of the first objects of the first `wanted` categories: as many as fit on a sheet.
+/// As many poses as fit on a sheet: the first pose of the first objects of the first `wanted` categories.
 std::vector<Index> sheet_poses(const ViewDataset& dataset, const std::vector<bool>& wanted);
 
 }  // namespace svnet::train

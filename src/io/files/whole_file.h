@@ -4,7 +4,7 @@
 
 namespace svnet::io {
 
-/// All bytes of a regular file. Throws Error that names it where it cannot be read.
+/// All bytes of a regular file. Throws Error that names it if it cannot be read.
 std::string whole_file(const std::filesystem::path& path);
 
 }  // namespace svnet::io

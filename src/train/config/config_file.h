@@ -17,8 +17,9 @@ Config parse_config(const std::string& text, const std::string& source, const st
 /// Reads the file: the only function here that touches the disk.
 Config read_config(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
-/// Every key with its value: parse_config reads back an equal configuration. Without `folder` paths are absolute; else
-/// those below one of the two folders above `folder` (the file's) are relative to it, so that they can move together.
+/// Every key with its value: parse_config reads back an equal configuration. `folder`: of the file; without it, paths
+/// are absolute. Paths below the folder's parent or grandparent are written relative to it, so that both can move
+/// together.
 std::string to_yaml(const Config& config, const std::filesystem::path& folder = {});
 
 /// The same, each key below a comment with its meaning and what it accepts; paths are written relative to `folder`.

@@ -27,13 +27,13 @@ struct YamlValue {
   std::string where() const;
 };
 
-/// Reads `text`; `source` is what errors call it. An empty text is null.
+/// Reads `text`. `source` is its name in errors. An empty text is null.
 YamlValue parse_yaml(const std::string& text, const std::string& source);
 
 /// Reads the value of a "key=value" override; an empty value is empty text. Errors begin with "--set KEY".
 YamlValue parse_override(const std::string& assignment);
 
-/// The numbers that a key accepts: from min to max, the ends excluded where `open`.
+/// The numbers that a key accepts: from min to max. An open end is excluded.
 struct NumberRange {
   double min = -std::numeric_limits<double>::infinity(), max = std::numeric_limits<double>::infinity();
   bool min_open = false, max_open = false;
@@ -46,7 +46,7 @@ std::string described(std::span<const std::string> choices);
 
 /// The value as a type; throws Error with its place, what it is and what was expected.
 std::string yaml_text(const YamlValue& value);
-/// Also takes 4e7, where that is a whole number.
+/// Also takes a whole number written like 4e7.
 Index yaml_whole_number(const YamlValue& value, const NumberRange& range);
 double yaml_number(const YamlValue& value, const NumberRange& range);
 /// The text of the value, which is one of `choices`.

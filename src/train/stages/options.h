@@ -7,19 +7,19 @@
 
 namespace svnet::train {
 
-// The options of the stages as a configuration says them.
+// From a configuration to the options of the stages.
 
-/// How problems are drawn, as scores files say it.
+/// How problems are drawn, in the words of scores files.
 std::string sampler_text(const Config::Scores& config);
 
-/// What `config.scores` and `config.seed` say of scores of features of that dimension.
+/// From `config.scores` and `config.seed`. `dimension`: of the features.
 semantics::ScoreOptions score_options(const Config& config, Index dimension);
 
-/// Orientations of the top image whose mean a score is.
+/// The number of orientations of the top image over which a score is averaged.
 int scored_orientations(const Config& config);
-/// Orientations of each top image that SV-net is trained on.
+/// The number of orientations of each top image that SV-net is trained on.
 int trained_orientations(const Config& config);
-/// The schedule stays empty; see learning_rate_schedule.
+/// All but the schedule, which learning_rate_schedule makes.
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint);
 Schedule learning_rate_schedule(const Config& config, Index steps_per_epoch);
 

@@ -39,8 +39,8 @@ auto reused(const Run& run, const StageFile& file, const Read& read) -> std::opt
   return found;
 }
 
-/// The result of a stage: read from its file if it can be reused, otherwise made, and written by the root process
-/// while the others wait. `read(path)` and `make()` return the same type, which has an input_fingerprint;
+/// The result of a stage. It is read from its file if it can be reused; otherwise it is made, and the root process
+/// writes it while the others wait. `read(path)` and `make()` return the same type, which has an input_fingerprint;
 /// `write(path, result)` writes it.
 template <class Read, class Make, class Write>
 auto reuse_or_make(const Run& run, const StageFile& file, const Read& read, const Make& make, const Write& write)

@@ -14,19 +14,19 @@
 namespace svnet::train {
 
 /// The second stage: Monte-Carlo scores of every view, in scores.h5. Views of held-out categories have none. Resumes
-/// from the snapshot of an interrupted run if that was making the same scores.
+/// from the snapshot of an interrupted run if its fingerprint matches.
 Scores scores_stage(const Run& run, FeaturesStage& features);
 
-/// How scores are made, which does not change them.
+/// Options that do not change the scores.
 struct ScoringOptions {
   Resume resume = Resume::never;                         ///< from the snapshot
   double snapshot_seconds = 10;                          ///< from one snapshot to the next
   Communicator& communicator = SingleProcess::shared();  ///< shares the work; the root process reads and writes files
 };
 
-/// Returns the scores of every view as `config.scores` and `config.seed` say; views of excluded categories have none.
-/// While problems are solved, keeps a snapshot at snapshot_path(path). Requires: rows of the features are the
-/// dataset's views.
+/// Computes the scores of every view with `config.scores` and `config.seed`. Views of excluded categories have none.
+/// Writes a snapshot to snapshot_path(path) from time to time. Requires: the rows of the features are the dataset's
+/// views.
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoringOptions& options);
