@@ -67,6 +67,10 @@ TEST_CASE("depth files that cannot be read are named in one line") {
   CHECK(refusal(folder.path() / "none") == (folder.path() / "none").string() + ": no such file");
   CHECK(message("text") ==
         name + "is neither a PNG nor a NumPy file, expected depth as 16-bit PNG in millimetres or .npy in metres");
+  CHECK(message("version https://git-lfs.github.com/spec/v1\n") ==
+        name +
+            "is neither a PNG nor a NumPy file, but a Git LFS pointer; get the file itself by 'git lfs pull'; expected "
+            "depth as 16-bit PNG in millimetres or .npy in metres");
   CHECK(message(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", data)) ==
         name + "is a damaged NumPy file (its size is not that of its array); replace the file");
   CHECK(message(npy("{'descr': '<c8', 'fortran_order': False, 'shape': (1, 1), }", data)) ==

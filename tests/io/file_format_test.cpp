@@ -19,6 +19,11 @@ TEST_CASE("files that are something else are recognised") {
            {"\x1f\x8b\x08\0"sv, "gzip"},
            {"PK\x03\x04\x14\0"sv, "take model.weights.h5 out"},
            {"\x89HDF\r\n\x1a\n"sv, "an HDF5 file"},
+           {"PK\x03\x04\x14\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x07\0\0\0arr.npyDATA"sv, "NumPy arrays"},
+           {"PK\x03\x04\0\0\x08\x08\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\x0a\0\x08\0w/data.pkl12345678"sv, "PyTorch"},
+           {"\0\0\0\x18"
+            "ftypheic"sv,
+            "HEIC"},
            {"\x80\x02}q"sv, "Python pickle"},
            {"\x40\0\0\0\0\0\0\0{\"a\":"sv, "safetensors"},
            {""sv, "empty"},

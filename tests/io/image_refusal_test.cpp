@@ -57,6 +57,14 @@ TEST_CASE("files that are not images are refused with a reason") {
   CHECK(refusal(folder.write("empty.png", "")) == "is empty, expected a picture (PNG, JPEG or WebP)");
   CHECK(refusal(folder.write("notes.png", "not a picture\n")) ==
         "is not a PNG, JPEG or WebP picture, whatever its name says");
+  CHECK(refusal(folder.write("lfs.png", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n")) ==
+        "is not a PNG, JPEG or WebP picture, but a Git LFS pointer; get the file itself by 'git lfs pull'");
+  CHECK_THAT(refusal(folder.write("page.jpg", "<!DOCTYPE html><html>")),
+             Catch::StartsWith("is not a PNG, JPEG or WebP picture, but a web page (HTML), as a failed download"));
+  CHECK_THAT(refusal(folder.write("phone.jpg", std::string("\0\0\0\x18"
+                                                           "ftypheic\0\0\0\0",
+                                                           16))),
+             Catch::Contains("but an HEIC or AVIF picture"));
   CHECK(refusal(kPictures / "animated.webp") == "is an animated WebP, expected a single picture");
 }
 

@@ -207,6 +207,11 @@ TEST_CASE("damaged meshes and textures are reported in one line that says where 
       {"accessor.glb", long_view, ""},
       {"material.glb", stranger, ""},
       {"text.glb", glb("no picture", "image/png"), "is no picture of a known kind"},
+      {"page.glb", glb("<!DOCTYPE html>", "image/png"), "GIF), but a web page"},
+      {"lfs.obj", "version https://git-lfs.github.com/spec/v1\n", "is not a mesh, but a Git LFS pointer"},
+      {"lfs.glb", "version https://git-lfs.github.com/spec/v1\n", "is not a mesh, but a Git LFS pointer"},
+      {"page.stl", "<!DOCTYPE html><html>" + std::string(100, ' '), "is not a mesh, but a web page"},
+      {"packed.ply", "\x1f\x8b\x08 packed", "is not a mesh, but compressed by gzip"},
       {"cut.glb", glb(png.substr(0, png.size() - 20), "image/png"), "texture"},
       {"jpeg.glb", glb("\xff\xd8\xff\xe0 no more", "image/jpeg"), "texture"}};
   for (const auto& [name, contents, part] : cases) {

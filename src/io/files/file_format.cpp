@@ -18,7 +18,6 @@ struct Signature {
 
 constexpr Signature kBinary[] = {
     {"\x89HDF\r\n\x1a\n"sv, "an HDF5 file"},
-    {"PK\x03\x04"sv, "a zip archive; if it is a .keras file, take model.weights.h5 out of it: 'unzip'"},
     {"\x1f\x8b"sv, "compressed by gzip; decompress it: 'gunzip'"},
     {"BZh"sv, "compressed by bzip2; decompress it: 'bunzip2'"},
     {"\xfd"
@@ -27,6 +26,10 @@ constexpr Signature kBinary[] = {
     {"\x28\xb5\x2f\xfd"sv, "compressed by zstd; decompress it: 'unzstd'"},
     {"\x89PNG\r\n\x1a\n"sv, "a PNG picture"},
     {"\xff\xd8\xff"sv, "a JPEG picture"},
+    {"GIF8"sv, "a GIF picture; convert it to PNG"},
+    {"II*\0"sv, "a TIFF picture; convert it to PNG"},
+    {"MM\0*"sv, "a TIFF picture; convert it to PNG"},
+    {"\x93NUMPY"sv, "a NumPy array (.npy)"},
     {"%PDF-"sv, "a PDF document"},
     {"\x80\x02"sv, "a Python pickle, such as PyTorch writes"},
     {"\x80\x04"sv, "a Python pickle, such as PyTorch writes"},
@@ -40,11 +43,27 @@ constexpr Signature kText[] = {
     {"<?xml"sv, "an XML text, as a failed download leaves it; download the file again"},
 };
 
+/// By the name of the first member, which is in the archive's first bytes.
+std::string_view meaning_of_zip(std::string_view bytes) {
+  constexpr std::size_t kHeader = 30;
+  const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0u; };
+  const std::string_view first =
+      bytes.size() < kHeader ? std::string_view() : bytes.substr(kHeader, byte(26) + 256 * byte(27));
+  if (first.ends_with("data.pkl") || first.ends_with(".format_version"))
+    return "weights of PyTorch, which are not read; save them with Keras";
+  if (first.ends_with(".npy")) return "an archive of NumPy arrays (.npz)";
+  return "a zip archive; if it is a .keras file, take model.weights.h5 out of it: 'unzip'";
+}
+
 std::string_view meaning_of(std::string_view bytes) {
   if (bytes.empty()) return "empty";
+  if (bytes.starts_with("PK\x03\x04")) return meaning_of_zip(bytes);
+  if (bytes.substr(std::min<std::size_t>(4, bytes.size())).starts_with("ftyp"))
+    return "an HEIC or AVIF picture, or a video; convert it to PNG or JPEG";
   for (const Signature& signature : kBinary)
     if (bytes.starts_with(signature.start)) return signature.meaning;
-  if (bytes.size() > 8 && bytes[8] == '{' && bytes.substr(4, 4) == "\0\0\0\0"sv) return "a safetensors file";
+  if (bytes.size() > 9 && bytes.substr(4, 5) == "\0\0\0\0{"sv && "\"} \n"sv.find(bytes[9]) != std::string_view::npos)
+    return "a safetensors file";
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
   bytes.remove_prefix(std::min(bytes.find_first_not_of(" \t\r\n"), bytes.size()));
   const std::string text = lower_case(bytes);

@@ -33,8 +33,11 @@ DepthImage read_depth(const fs::path& path, std::optional<double> unit_m) {
   const std::string name = path.string();
   if (is_npy(file)) return checked(name, decode_npy_depth(name, file, unit_m));
   check(!has_bytes(file, 0, "PK\3\4"), name, ": is a ZIP archive (.npz?), expected one array, by numpy.save");
-  check(has_bytes(file, 0, "\x89PNG\r\n\x1a\n"), name,
-        ": is neither a PNG nor a NumPy file, expected depth as 16-bit PNG in millimetres or .npy in metres");
+  if (image_format(file) != ImageFormat::png) {
+    const std::string instead = recognised_instead(file);
+    fail(name, ": is neither a PNG nor a NumPy file", instead, instead.empty() ? ", " : "; ",
+         "expected depth as 16-bit PNG in millimetres or .npy in metres");
+  }
   const Grey16 grey = decode_grey16_png(name, file);
   DepthImage image{grey.height, grey.width, {}};
   image.metres.reserve(grey.levels.size());

@@ -66,9 +66,19 @@ Bytes chunk(Bytes file, const ChunkLayout& layout, std::string_view name) {
 
 int exif_orientation(Bytes file) {
   Bytes tiff;
-  if (has_bytes(file, 0, "\xff\xd8\xff")) tiff = jpeg_exif(file);
-  if (has_bytes(file, 0, "\x89PNG")) tiff = chunk(file, {8, 0, 4, 4, true, false}, "eXIf");
-  if (has_bytes(file, 0, "RIFF")) tiff = chunk(file, {12, 4, 0, 0, false, true}, "EXIF");
+  switch (image_format(file)) {
+    case ImageFormat::jpeg:
+      tiff = jpeg_exif(file);
+      break;
+    case ImageFormat::png:
+      tiff = chunk(file, {8, 0, 4, 4, true, false}, "eXIf");
+      break;
+    case ImageFormat::webp:
+      tiff = chunk(file, {12, 4, 0, 0, false, true}, "EXIF");
+      break;
+    case ImageFormat::other:
+      return 1;
+  }
   if (has_bytes(tiff, 0, std::string_view("Exif\0\0", kExifPrefix))) tiff = tiff.subspan(kExifPrefix);
   const bool big_endian = has_bytes(tiff, 0, "MM");
   if (!big_endian && !has_bytes(tiff, 0, "II")) return 1;

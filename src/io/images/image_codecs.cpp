@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "base/error.h"
+#include "io/files/file_format.h"
 
 namespace svnet::io {
 namespace {
@@ -53,6 +54,31 @@ bool has_bytes(Bytes file, std::size_t offset, std::string_view expected) {
   return file.size() >= offset + expected.size() &&
          std::equal(expected.begin(), expected.end(), file.begin() + static_cast<std::ptrdiff_t>(offset),
                     [](char a, std::uint8_t b) { return static_cast<std::uint8_t>(a) == b; });
+}
+
+ImageFormat image_format(Bytes file) {
+  if (has_bytes(file, 0, "\xff\xd8\xff")) return ImageFormat::jpeg;
+  if (has_bytes(file, 0, "\x89PNG\r\n\x1a\n")) return ImageFormat::png;
+  if (has_bytes(file, 0, "RIFF") && has_bytes(file, 8, "WEBP")) return ImageFormat::webp;
+  return ImageFormat::other;
+}
+
+std::optional<Image> decode_image(const std::string& name, Bytes file) {
+  switch (image_format(file)) {
+    case ImageFormat::jpeg:
+      return decode_jpeg(name, file);
+    case ImageFormat::png:
+      return decode_png(name, file);
+    case ImageFormat::webp:
+      return decode_webp(name, file);
+    case ImageFormat::other:
+      break;
+  }
+  return {};
+}
+
+std::string recognised_instead(Bytes file) {
+  return recognised_instead(std::string_view(reinterpret_cast<const char*>(file.data()), file.size()));
 }
 
 void check_image_size(const std::string& name, Index height, Index width) {

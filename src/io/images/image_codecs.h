@@ -16,9 +16,17 @@ namespace svnet::io {
 
 using Bytes = std::span<const std::uint8_t>;
 
+/// The format of a file by its first bytes.
+enum class ImageFormat { jpeg, png, webp, other };
+ImageFormat image_format(Bytes file);
+
+/// Decodes a JPEG, PNG or WebP file. Empty for any other format.
+std::optional<Image> decode_image(const std::string& name, Bytes file);
 Image decode_jpeg(const std::string& name, Bytes file);
 Image decode_png(const std::string& name, Bytes file);
 Image decode_webp(const std::string& name, Bytes file);
+/// What a file of another format is, if it is recognised, for messages: see io/files/file_format.h.
+std::string recognised_instead(Bytes file);
 
 /// The EXIF orientation of a JPEG, PNG or WebP file, 1 to 8; 1 if it has none.
 int exif_orientation(Bytes file);

@@ -14,10 +14,9 @@ namespace svnet::io {
 namespace {
 
 Image decoded(const std::string& name, Bytes file) {
-  if (has_bytes(file, 0, "\xff\xd8\xff")) return decode_jpeg(name, file);
-  if (has_bytes(file, 0, "\x89PNG\r\n\x1a\n")) return decode_png(name, file);
-  if (has_bytes(file, 0, "RIFF") && has_bytes(file, 8, "WEBP")) return decode_webp(name, file);
-  fail(name, ": is not a PNG, JPEG or WebP picture, whatever its name says");
+  if (std::optional<Image> image = decode_image(name, file)) return *std::move(image);
+  const std::string instead = recognised_instead(file);
+  fail(name, ": is not a PNG, JPEG or WebP picture", instead.empty() ? ", whatever its name says" : instead);
 }
 
 }  // namespace

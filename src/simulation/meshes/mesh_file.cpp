@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/files/file_format.h"
 #include "io/files/whole_file.h"
 #include "mesh_readers.h"
 
@@ -34,12 +35,17 @@ Mesh read_mesh(const fs::path& path, const MeshReading& reading) {
         ": cannot be read; expected a mesh (OBJ, PLY, STL or GLB)");
   const Reader read = reader_of(path);
   check(read != nullptr, name, ": is not named like a mesh; expected .obj, .ply, .stl, .glb or .gltf");
-  MeshDraft draft(name);
-  {
-    const std::string contents = io::whole_file(path);
+  std::string contents = io::whole_file(path);
+  const std::string instead = io::recognised_instead(std::string_view(contents));
+  try {
+    MeshDraft draft(name);
     read(contents, CollectionFiles(path, reading.collection, reading.warn), draft);
+    contents = std::string();  // finish needs memory
+    return std::move(draft).finish(reading.metres_per_unit);
+  } catch (const Error&) {
+    check(instead.empty(), name, ": is not a mesh", instead);
+    throw;
   }
-  return std::move(draft).finish(reading.metres_per_unit);
 }
 
 }  // namespace svnet::simulation
