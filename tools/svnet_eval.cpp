@@ -60,7 +60,8 @@ int main(int argc, char** argv) {
       .separated_by_commas()
       .one_of(selector_names())
       .value_name("NAMES");
-  command.add("--json", json, "Writes evaluation.json here too").value_name("FILE");
+  command.add("--json", json, "Writes evaluation.json here too. With /dev/stdout no tables are printed")
+      .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
@@ -76,7 +77,7 @@ int main(int argc, char** argv) {
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
     check(fs::exists(folder / "model.safetensors"), folder.string(), ": holds no trained model; run svnet-train first");
-    if (!json.empty()) io::check_can_be_written(json, files_of_run(folder, config_file));
+    if (!json.empty()) io::check_can_be_written(json, files_of_run(folder, config_file), io::Streams::allowed);
     console.log_to(folder / "log.txt");
     const train::Run run = make_run(config, std::move(dataset), folder, console.messages(), SingleProcess::shared(),
                                     inference_options_from_environment());
@@ -87,10 +88,11 @@ int main(int argc, char** argv) {
     const train::EvaluationInputs inputs{features, scores, predicted};
     const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
     const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
-    if (const auto held_out = tables.find("held_out"); held_out != tables.end())
+    const bool prints = !io::is_standard_output(json);
+    if (const auto held_out = tables.find("held_out"); prints && held_out != tables.end())
       console.result(table_text(held_out->second, "Held-out categories"));
-    console.result(table_text(tables.at("training"), "Training categories"));
-    if (const auto sheet = contact_sheet_stage(run, inputs, count))
+    if (prints) console.result(table_text(tables.at("training"), "Training categories"));
+    if (const auto sheet = contact_sheet_stage(run, inputs, count); sheet && prints)
       console.result(joined("Views of held-out objects: ", sheet->string()));
   });
 }

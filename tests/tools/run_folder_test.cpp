@@ -37,6 +37,18 @@ TEST_CASE("a run folder works after it was moved with its data, or without them 
       Contains("Training categories"));
 }
 
+TEST_CASE("svnet-eval writes its JSON alone to standard output, and to pipes") {
+  const Workplace place;
+  place.output_of("svnet-train config.yaml --output run --threads 1 --quiet");
+  const std::string json = place.output_of("svnet-eval run --threads 1 --quiet --json /dev/stdout | cat");
+  CHECK(json == file_contents(place / "run/evaluation.json"));
+  place.output_of("svnet-eval run --threads 1 --quiet --json /dev/stdout >tables.json");
+  CHECK(json == file_contents(place / "tables.json"));
+  place.output_of("mkfifo pipe; cat pipe >piped.json & svnet-eval run --threads 1 --quiet --json pipe >text; wait");
+  CHECK(json == file_contents(place / "piped.json"));
+  CHECK_THAT(file_contents(place / "text"), Contains("Training categories"));
+}
+
 TEST_CASE("a dry run says which folder it cannot write to, and why") {
   const Workplace place;
   const std::string dry = "svnet-train config.yaml --dry-run --quiet --threads 1";
