@@ -102,6 +102,23 @@ TEST_CASE("the camera_info of ROS and the intrinsics of RealSense are read") {
   CHECK(intrinsics_in("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 319.5\ncy: 239.5\n") == expected);
 }
 
+TEST_CASE("a camera_info with P alone is that of rectified pictures") {
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "P": [600, 0, 319.5, -30, 0, 601, 239.5, 0, 0, 0, 1, 0]})") ==
+        "600 601 319.5 239.5 of 640x480");
+  CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": [0, 0, 0, 0, 0, 0, 0, 0, 0]})") ==
+        "K is 0: the camera is not calibrated");
+}
+
+TEST_CASE("a fisheye lens is refused, even if it has no coefficients") {
+  CHECK_THAT(intrinsics_in(ros_json("[0, 0, 0, 0]", R"(, "distortion_model": "equidistant")")),
+             Catch::StartsWith("distortion_model: 'equidistant' is a fisheye lens; pictures must be rectified first"));
+  CHECK_THAT(intrinsics_in(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 319.5, "ppy": 239.5,
+                               "model": "Kannala Brandt4", "coeffs": [0, 0, 0, 0, 0]})"),
+             Catch::StartsWith("model: 'Kannala Brandt4' is a fisheye lens"));
+  CHECK(intrinsics_in(ros_json("[0, 0, 0, 0]", R"(, "distortion_model": "rational_polynomial")")) ==
+        "600 601 319.5 239.5 of 640x480");
+}
+
 TEST_CASE("cameras with distortion are refused, and say that pictures must be rectified") {
   const std::string rectify =
       "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no "

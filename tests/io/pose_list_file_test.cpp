@@ -24,6 +24,12 @@ TEST_CASE("a pose list may begin with a byte order mark") {
                                            "0,45\n")));
 }
 
+TEST_CASE("a pose list in UTF-16, as spreadsheets save \"Unicode text\", is named") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("poses.csv", std::string("\xff\xfet\0h\0e\0t\0a\0", 12));
+  CHECK_THROWS_WITH(read_pose_list(path), path.string() + ": is text in UTF-16; save it as UTF-8");
+}
+
 TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
   const TemporaryFolder folder;
   CHECK(read_pose_list(folder.write("poses.csv", "theta,phi,x_m,name\n0,45,1.5,first\n90,60,,\n")) ==

@@ -47,6 +47,15 @@ void check_undistorted(const json& object, const std::string& name, const std::s
     check(coefficient == 0, name, ": ", key, ": the lens has distortion (", coefficient, ")", kRectify);
 }
 
+/// A fisheye lens without coefficients is no pinhole camera either: its radius is the angle times fx.
+void check_model(const json& object, const std::string& name, const std::string& key) {
+  if (!object.contains(key) || !object.at(key).is_string()) return;
+  const std::string model = object.at(key).get<std::string>(), lower = lower_case(model);
+  for (const char* fisheye : {"equidistant", "fisheye", "kannala", "ftheta", "f-theta"})
+    check(lower.find(fisheye) == std::string::npos, name, ": ", key, ": '", printable(model), "' is a fisheye lens",
+          kRectify);
+}
+
 /// The first of the keys that the object has; "" if it has none.
 std::string present(const json& object, const Names& keys) {
   const auto found = std::find_if(keys.begin(), keys.end(), [&](const auto& key) { return object.contains(key); });
@@ -108,13 +117,16 @@ Intrinsics ros_camera(const json& document, const std::string& name) {
   Intrinsics camera{.width = pixels_at(document, name, is_file ? "image_width" : "width"),
                     .height = pixels_at(document, name, is_file ? "image_height" : "height")};
   for (const char* key : {"D", "d", "distortion_coefficients"}) check_undistorted(document, name, key);
+  check_model(document, name, "distortion_model");
   check_whole(document, name);
   const std::string matrix = present(document, {"K", "k", "camera_matrix"}),
                     projection = present(document, {"P", "p", "projection_matrix"});
-  check(!matrix.empty(), name, ": the key '", is_file ? "camera_matrix" : "K", "' is missing");
-  camera = with_matrix(camera, numbers_at(document, name, matrix), 3, name + ": " + matrix);
-  if (projection.empty()) return camera;
-  const std::vector<double> p = numbers_at(document, name, projection);
+  check(!matrix.empty() || !projection.empty(), name, ": the key '", is_file ? "camera_matrix" : "K", "' is missing");
+  const std::vector<double> p = projection.empty() ? std::vector<double>() : numbers_at(document, name, projection);
+  if (matrix.empty()) return with_matrix(camera, p, 4, name + ": " + projection);
+  const std::vector<double> k = numbers_at(document, name, matrix);
+  check(k.empty() || k[0] != 0, name, ": ", matrix, " is 0: the camera is not calibrated");
+  camera = with_matrix(camera, k, 3, name + ": " + matrix);
   if (p.empty() || p[0] == 0) return camera;  // ROS: not calibrated
   const Intrinsics rectified = with_matrix(camera, p, 4, name + ": " + projection);
   check(same_pinhole(camera, rectified), name, ": ", matrix, " and ", projection, " are different cameras; leave out ",
@@ -136,6 +148,7 @@ Intrinsics realsense_camera(const json& document, const std::string& name) {
   check_keys(document, name,
              {"width", "height", "fx", "fy", "ppx", "ppy", "model", "coeffs", "fov", "stream", "format", "pose"});
   check_undistorted(document, name, "coeffs");
+  check_model(document, name, "model");
   return pinhole_at(document, name, "ppx", "ppy");
 }
 

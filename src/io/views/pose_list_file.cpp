@@ -33,6 +33,8 @@ std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
   check(file && !std::filesystem::is_directory(path), path.string(), ": cannot be read; expected a CSV file of poses");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  check(!text.starts_with("\xff\xfe") && !text.starts_with("\xfe\xff"), path.string(),
+        ": is text in UTF-16; save it as UTF-8");
   std::vector<CameraPose> poses;
   CsvReader reader(text, path.string());
   std::size_t columns = 0;  // of the header
