@@ -176,8 +176,12 @@ TEST_CASE("glTF 3.12: an extension that is required and not read is refused by i
                                               ", which is not read; " + advice));
   }
   Case draco;  // without saying so
+  draco.glb.json["accessors"][0].erase("bufferView");
   draco.glb.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
   CHECK_THAT(draco.refusal(), Catch::Contains("KHR_draco_mesh_compression"));
+  Case fallback;  // an extension that is not required has a form that all can read beside it
+  fallback.glb.primitive()["extensions"]["KHR_draco_mesh_compression"] = {{"bufferView", 0}};
+  CHECK(fallback.refusal() == "read");
   Case optional;
   optional.glb.json["extensionsUsed"] = {"ACME_foo"};
   CHECK(optional.refusal() == "read");

@@ -252,4 +252,18 @@ TEST_CASE("OBJ: colours after the coordinates are those of the vertices") {
   Case one;
   one.write("thing/a.obj", "v 0 0 0 1 0.5 0\nv 1 0 0 1 0.5 0\nv 0 1 0 1 0.5 0\nf 1 2 3\n");
   check_colour(one.read(), 255, 128, 0);
+  // Levels: one above 1 tells it of all, wherever it stands.
+  one.write("thing/a.obj", "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\nv 5 5 5 9 200 3\n");
+  check_colour(one.read(), 1, 1, 1);
+  one.write("thing/a.obj", "v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\nv 5 5 5 255\n");
+  check_colour(one.read(), 255, 255, 255);
+}
+
+TEST_CASE("OBJ and MTL may begin with a byte order mark") {
+  Case one;
+  one.write("thing/a.mtl", "\xef\xbb\xbfnewmtl paint\nKd 1 0 0\n");
+  one.write("thing/a.obj", "\xef\xbb\xbfmtllib a.mtl\nusemtl paint\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  check_colour(one.read(), 255, 0, 0);
+  one.write("thing/a.obj", "\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+  CHECK(one.read().triangles.size() == 1);
 }

@@ -63,6 +63,8 @@ TEST_CASE("PLY: colours of faces and of vertices, as integers or floats, are sRG
   check_colour(read_mesh(folder.write("a.ply", ply("", "", kColours, "204 63 20"))), 204, 63, 20);
   check_colour(read_mesh(folder.write("b.ply", ply(kColours, "204 63 20", "", ""))), 204, 63, 20);
   check_colour(read_mesh(folder.write("c.ply", ply(floats, "0.8 0.2 0", "", ""))), 204, 51, 0);
+  check_colour(read_mesh(folder.write("f.ply", ply(floats, "204 1 0", "", ""))), 204, 1, 0);
+  check_colour(read_mesh(folder.write("g.ply", ply("", "", floats, "204 1 0"))), 204, 1, 0);
   check_colour(read_mesh(folder.write("d.ply", ply(kColours, "255 255 255", kColours, "204 63 20"))), 204, 63, 20);
 }
 

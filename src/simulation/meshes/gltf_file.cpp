@@ -227,8 +227,8 @@ std::string_view GltfFile::buffer_view(std::size_t number) const {
   const Json& view = item("bufferViews", number);
   const auto from = index(view, "buffer"), length = index(view, "byteLength");
   check_here(from && length, "bufferViews[", number, "] has no buffer or no length");
-  check_here(extension(view, "EXT_meshopt_compression").empty(),
-             "is compressed by EXT_meshopt_compression, which is not read; save it without that");
+  for (const char* name : {"EXT_meshopt_compression", "KHR_meshopt_compression"})
+    check_here(extension(view, name).empty(), "is compressed by ", name, ", which is not read; save it without that");
   const std::string_view all = buffer(*from);
   const std::size_t offset = index(view, "byteOffset").value_or(0);
   check_here(offset <= all.size() && *length <= all.size() - offset, "bufferViews[", number, "] ends at byte ", offset,

@@ -115,10 +115,17 @@ class GltfReader {
     return result;
   }
 
+  /// Whether the primitive has no uncompressed form beside the one of Draco.
+  bool is_only_compressed(const Json& primitive) const {
+    if (!file_.object(primitive, "extensions").contains("KHR_draco_mesh_compression")) return false;
+    const auto positions = file_.index(file_.object(primitive, "attributes"), "POSITION");
+    return !positions || !file_.index(file_.item("accessors", *positions), "bufferView");
+  }
+
   void read_primitive(const Json& primitive, const Eigen::Affine3d& placed) {
     const std::size_t mode = file_.index(primitive, "mode").value_or(kTriangles);
     if (mode < kTriangles || mode > kFan) return;
-    check(!file_.object(primitive, "extensions").contains("KHR_draco_mesh_compression"), draft_.name(),
+    check(!is_only_compressed(primitive), draft_.name(),
           ": is compressed by KHR_draco_mesh_compression, which is not read; save it without Draco compression");
     const auto positions = attribute(primitive, "POSITION", 3, 0);
     if (!positions) return;

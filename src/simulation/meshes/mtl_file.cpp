@@ -60,6 +60,7 @@ std::optional<Vec3> colour_of(std::string_view line) {
 
 std::vector<MtlMaterial> parse_mtl(std::string_view file) {
   std::vector<MtlMaterial> materials;
+  file = without_byte_order_mark(file);
   while (!file.empty()) {
     std::string_view line = take_line(file);
     const std::string key = lower_case(take_word(line));

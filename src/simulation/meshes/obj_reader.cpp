@@ -20,6 +20,8 @@ class ObjReader {
   ObjReader(const CollectionFiles& files, MeshDraft& draft) : files_(files), textures_(files, draft), draft_(draft) {}
 
   void read(std::string_view file) {
+    file = without_byte_order_mark(file);
+    rest_ = file;
     while (!file.empty()) {
       ++line_number_;
       std::string_view line = take_line(file);
@@ -32,6 +34,7 @@ class ObjReader {
         }
         line = joined_;
       }
+      rest_ = file;
       read_line(line);
     }
     if (!missing_.empty() && missing_files_.empty())
@@ -67,20 +70,38 @@ class ObjReader {
     return value;
   }
 
+  /// What follows the coordinates of a point: nothing, w, or r g b.
+  static std::vector<double> after_coordinates(std::string_view line) {
+    std::vector<double> numbers;
+    double number = 0;
+    while (numbers.size() < 3 && parse_signed(take_word(line), number)) numbers.push_back(number);
+    return numbers;
+  }
+
+  /// The level of white: 1, or 255 if a colour of this line or a later one is above 1, as some programs write levels.
+  double white_from(std::string_view line) const {
+    for (std::string_view file = rest_;; line = take_line(file)) {
+      std::string_view words = line;
+      if (take_word(words) == "v") {
+        for (int c = 0; c < 3; ++c) take_word(words);
+        const std::vector<double> colour = after_coordinates(words);
+        if (colour.size() == 3 && *std::max_element(colour.begin(), colour.end()) > 1) return 255;
+      }
+      if (file.empty()) return 1;
+    }
+  }
+
   /// "x y z [w]", or "x y z r g b" as scanners write it.
   void read_point(std::string_view line) {
+    const std::string_view words = line;
     const double x = number(line), y = number(line), z = number(line);
     draft_.points.emplace_back(x, y, z);
-    std::array<double, 4> more{};
-    std::size_t count = 0;
-    for (std::string_view word = take_word(line); count < 4 && !word.empty() && parse_signed(word, more[count]);
-         word = take_word(line))
-      ++count;
-    if (count < 3) return;
+    const std::vector<double> more = after_coordinates(line);
+    if (more.size() < 3) return;
+    if (white_ == 0) white_ = white_from("v " + std::string(words));
     Vec3 colour;
-    const bool is_bytes = std::max({more[0], more[1], more[2]}) > 1;  // some write levels
     for (std::size_t c = 0; c < 3; ++c) {
-      const double level = is_bytes ? more[c] : 255 * more[c];
+      const double level = 255 / white_ * more[c];
       colour[static_cast<Eigen::Index>(c)] =
           linear_from_srgb(static_cast<std::uint8_t>(level > 0 ? std::lround(std::min(level, 255.0)) : 0));
     }
@@ -204,6 +225,8 @@ class ObjReader {
   std::size_t line_number_ = 0;
   std::string joined_;
   std::vector<Vec2> uv_;
+  std::string_view rest_;    // of the file, after the line that is being read
+  double white_ = 0;         // of colours of points; 0 before the first one
   std::vector<Vec3> tints_;  // of the points up to the last one that has a colour, or empty
   std::map<std::string, UsedMaterial> materials_;
   std::string material_name_, missing_;

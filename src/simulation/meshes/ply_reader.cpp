@@ -11,10 +11,12 @@
 namespace svnet::simulation {
 namespace {
 
-/// Where the colours of an element stand. Integers fill their type's range, floats [0, 1]; both are sRGB.
+/// Where the colours of an element stand. Integers fill their type's range, floats [0, 1], or [0, 255] if one is above
+/// 1; all are sRGB.
 struct Colours {
   std::array<int, 3> at{-1, -1, -1};
   std::array<double, 3> most{1, 1, 1};
+  bool has_above_one = false;
 
   explicit Colours(const PlyElement& element)
       : at{element.find({"red", "r", "diffuse_red"}), element.find({"green", "g", "diffuse_green"}),
@@ -30,11 +32,19 @@ struct Colours {
     return std::none_of(at.begin(), at.end(), [](int i) { return i < 0; });
   }
 
+  /// Sees to the range of floats. All rows of the element must be seen before `of`.
+  void look_at(const PlyRow& row) {
+    for (const int property : at)
+      if (const auto& value = row[static_cast<std::size_t>(property)]; !value.empty() && value[0] > 1)
+        has_above_one = true;
+  }
+
   Vec3 of(const PlyRow& row) const {
     Vec3 colour;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::vector<double>& value = row[static_cast<std::size_t>(at[c])];
-      const double share = value.empty() || !(value[0] > 0) ? 0.0 : std::min(value[0] / most[c], 1.0);
+      const double white = most[c] == 1 && has_above_one ? 255 : most[c];
+      const double share = value.empty() || !(value[0] > 0) ? 0.0 : std::min(value[0] / white, 1.0);
       colour[static_cast<Eigen::Index>(c)] = linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * share)));
     }
     return colour;
@@ -61,6 +71,17 @@ class PlyReader {
   }
 
  private:
+  /// The colours of an element whose rows come next.
+  Colours colours_of(const PlyElement& element) {
+    Colours colours(element);
+    if (!colours.are_there() || colours.most[0] != 1) return colours;
+    const PlyBody before = body_;
+    PlyRow row;
+    for (std::uint64_t i = 0; i < element.count && body_.take(element, row); ++i) colours.look_at(row);
+    body_ = before;
+    return colours;
+  }
+
   template <class Body>
   void for_rows(const PlyElement& element, Body body) {
     PlyRow row;
@@ -79,7 +100,7 @@ class PlyReader {
       check(found >= 0, draft_.name(), ": its vertices have no '", "xyz"[c], "'");
       at[c] = static_cast<std::size_t>(found);
     }
-    const Colours colours(element);
+    const Colours colours = colours_of(element);
     const int u = element.find({"s", "u", "texture_u", "texture_s"}),
               v = element.find({"t", "v", "texture_v", "texture_t"});
     const bool has_uv = u >= 0 && v >= 0 && !header_.textures.empty();
@@ -116,7 +137,7 @@ class PlyReader {
     const int corners = element.find({"vertex_indices", "vertex_index"}), wedges = element.find({"texcoord"}),
               texture = element.find({"texnumber"});
     check(corners >= 0, draft_.name(), ": its faces have no 'vertex_indices'");
-    const Colours colours(element);
+    const Colours colours = colours_of(element);
     has_colours_ = colours.are_there() || !tints_.empty();
     std::vector<std::uint32_t> face;
     std::vector<Eigen::Vector3d> polygon;

@@ -14,6 +14,12 @@ inline std::string_view trimmed(std::string_view text) {
   return text.substr(0, text.find_last_not_of(kBlanks) + 1);
 }
 
+/// The text without the byte order mark that some programs begin UTF-8 with.
+inline std::string_view without_byte_order_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
+
 /// Up to the next LF, CR or CR LF, without it.
 inline std::string_view take_line(std::string_view& text) {
   const std::string_view line = text.substr(0, text.find_first_of("\n\r"));
