@@ -104,13 +104,12 @@ Tensor preprocessed(const Preprocessing& how, const std::uint8_t* rgb, Index ima
 py::array_t<float> features(const LoadedBackbone& self, const py::object& given) {
   const Backbone& backbone = self.backbone;
   const Preprocessing& how = backbone.preprocessing();
-  const Array<std::uint8_t> pictures = images("Backbone.features", given);
-  check(pictures.shape(1) == how.height && pictures.shape(2) == how.width, "[Backbone.features] images are ",
-        pictures.shape(1), "x", pictures.shape(2), ", ", backbone.kind().name, " takes ", how.height, "x", how.width,
-        "; resize them first");
-  const Index n = pictures.shape(0), dimension = backbone.dimension();
+  const Array<std::uint8_t> batch = images("Backbone.features", given);
+  check(batch.shape(1) == how.height && batch.shape(2) == how.width, "[Backbone.features] images are ", batch.shape(1),
+        "x", batch.shape(2), ", ", backbone.kind().name, " takes ", how.height, "x", how.width, "; resize them first");
+  const Index n = batch.shape(0), dimension = backbone.dimension();
   py::array_t<float> result({n, dimension});
-  const std::uint8_t* rgb = pictures.data();
+  const std::uint8_t* rgb = batch.data();
   float* to = result.mutable_data();
   const Computing computing;
   for (Index first = 0; first < n; first += kBatch) {

@@ -21,7 +21,7 @@ inline svnet::Model small_model(svnet::models::AngleEncoding angles = svnet::mod
 }
 
 /// An image without symmetry, of any size.
-inline svnet::Image small_picture(svnet::Index height = 70, svnet::Index width = 50) {
+inline svnet::Image small_image(svnet::Index height = 70, svnet::Index width = 50) {
   svnet::Image image{height, width, {}};
   for (svnet::Index y = 0; y < height; ++y)
     for (svnet::Index x = 0; x < width; ++x)

@@ -1,4 +1,4 @@
-// svnet-features: features of every picture of a dataset.
+// svnet-features: features of every image of a dataset.
 #include "base/text.h"
 #include "command/command.h"
 #include "io/files/atomic_file.h"
@@ -34,7 +34,7 @@ std::string unused_text(std::vector<std::string> names) {
   return joined(", ", count, " not used (", printable(joined_with(", ", names)), count > kMostNames ? ", …)" : ")");
 }
 
-std::vector<std::filesystem::path> pictures_of(const ViewDataset& dataset) {
+std::vector<std::filesystem::path> images_of(const ViewDataset& dataset) {
   std::vector<std::filesystem::path> files;
   for (const View& view : dataset.views) files.push_back(dataset.root / view.path);
   return files;
@@ -43,7 +43,7 @@ std::vector<std::filesystem::path> pictures_of(const ViewDataset& dataset) {
 int run(int argc, char** argv, Communicator& communicator) {
   Command command(
       "svnet-features",
-      "Writes the features of every picture of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
+      "Writes the features of every image of a dataset (category/object/pose/PHI_THETA.png) to an HDF5 file.",
       "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5\n"
       "mpirun -n 8 svnet-features --threads 1 --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos "
       "--output features.h5");
@@ -76,7 +76,7 @@ int run(int argc, char** argv, Communicator& communicator) {
         const ViewDataset dataset = io::read_view_dataset(images, *find_enum<ExifOrientation>(exif));
         if (communicator.is_root())
           for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
-        if (communicator.is_root()) io::check_can_be_written(output, pictures_of(dataset));
+        if (communicator.is_root()) io::check_can_be_written(output, images_of(dataset));
         const FeaturesOrigin origin = features_origin(source, io::fingerprint(dataset, Parallel::shared()));
         const Features features =
             train::extract_features(source.backbone, dataset, origin, console.messages(), communicator);

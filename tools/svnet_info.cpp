@@ -38,7 +38,7 @@ int main(int argc, char** argv) {
   Index batch = 1;
   command.add("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
   const Argument asked = command.add_flag("--plan", plan, "Print the steps of the compiled network, timed");
-  command.add("--batch", batch, "Pictures that run together (default 1)").needs(asked).in_range(1, 1024);
+  command.add("--batch", batch, "Images that run together (default 1)").needs(asked).in_range(1, 1024);
   command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
   command.add_precision().needs(asked);
   return command.run(argc, argv, [&](Console& console) {

@@ -34,14 +34,14 @@ std::string json_text(const std::vector<CameraPose>& poses, const std::vector<fl
   return nlohmann::ordered_json{{"best", views.front()}, {"views", views}}.dump(2);
 }
 
-/// The picture as it is stored, with a warning if viewers show it turned, or turned as they do.
+/// The image as it is stored, with a warning if viewers show it turned, or turned as they do.
 Image top_image(const std::filesystem::path& path, const std::string& exif, Console& console) {
-  io::Picture picture = io::read_picture(path);
-  if (exif == name_of(ExifOrientation::obey)) return oriented(std::move(picture.image), picture.exif_orientation);
-  if (picture.exif_orientation != 1)
-    console.line(joined(path.string(), ": the EXIF orientation ", picture.exif_orientation,
-                        " is ignored; --exif-orientation obey turns the picture as viewers do"));
-  return std::move(picture.image);
+  io::StoredImage stored = io::read_stored_image(path);
+  if (exif == name_of(ExifOrientation::obey)) return oriented(std::move(stored.image), stored.exif_orientation);
+  if (stored.exif_orientation != 1)
+    console.line(joined(path.string(), ": the EXIF orientation ", stored.exif_orientation,
+                        " is ignored; --exif-orientation obey turns the image as viewers do"));
+  return std::move(stored.image);
 }
 
 }  // namespace
@@ -56,7 +56,7 @@ int main(int argc, char** argv) {
   bool grid = false, json = false;
   std::string exif{name_of(ExifOrientation::ignore)};
   command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
-  command.add("--image", image, "The object from above: a PNG, JPEG or WebP picture of any size")
+  command.add("--image", image, "The object from above: a PNG, JPEG or WebP image of any size")
       .required()
       .value_name("FILE");
   const Argument poses_option =
@@ -72,7 +72,7 @@ int main(int argc, char** argv) {
   command.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
   command
       .add("--plot", plot,
-           "Writes a PNG picture of the half-sphere from above: the top view in the centre, theta 0 to the right, "
+           "Writes a PNG image of the half-sphere from above: the top view in the centre, theta 0 to the right, "
            "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red. With /dev/stdout "
            "no scores are printed")
       .value_name("FILE");

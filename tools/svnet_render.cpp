@@ -26,7 +26,7 @@ int main(int argc, char** argv) {
                   "Collects views of household objects and tools in simulation, as a robot with an RGB-D camera would: "
                   "each object rests on a table, is localised in an overview, and is seen from the paper's viewpoints. "
                   "Writes CATEGORY/OBJECT/POSE/PHI_THETA.png, manifest.json, and under _extra/ a contact sheet, the "
-                  "overviews, depth (16-bit PNG, millimetres) and masks. The same seed gives the same pictures.",
+                  "overviews, depth (16-bit PNG, millimetres) and masks. The same seed gives the same images.",
                   "svnet-render --output runs/rendered\n"
                   "svnet-render --output runs/tools --categories hammer,wrench,pliers --objects 3 --size 160\n"
                   "svnet-render --output runs/mine --meshes meshes --unit 0.001");
@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   command.add("--objects", options.objects, "Objects of each category (5; further ones are mixtures of the first 5)")
       .in_range(1, 999);
   command.add("--poses", options.poses, "Poses of each object (3)").in_range(1, 99);
-  command.add("--size", options.size, "Height and width of the pictures in pixels (224)").in_range(32, 2048);
+  command.add("--size", options.size, "Height and width of the images in pixels (224)").in_range(32, 2048);
   command.add("--seed", options.seed, "Seed of poses, tables, lights, noise and missing views (1)")
       .in_range(0, Index{1} << 53);
   const Argument meshes =
@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
   return command.run(argc, argv, [&](Console& console) {
     if (unit.given()) options.metres_per_unit = metres_per_unit;
     const RenderSummary made = render_dataset(options, console.messages());
-    console.result(joined(made.pictures, " pictures of ", made.poses, " poses in ", options.output.string(),
+    console.result(joined(made.images, " images of ", made.poses, " poses in ", options.output.string(),
                           objects_left_out(made), made.left_out > 0 ? joined("; ", made.left_out, " left out") : "",
                           made.left_out > 0 || !made.objects_left_out.empty() ? ", as manifest.json tells" : ""));
   });

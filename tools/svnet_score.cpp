@@ -66,12 +66,12 @@ int run(int argc, char** argv, Communicator& communicator) {
         ViewDataset dataset = io::read_view_dataset(dataset_folder);
         const Features features = io::read_features(features_file);
         train::check_rows(dataset, features.paths, features_file.string());
-        // Scores need no pixels: features of turned pictures are as good.
+        // Scores need no pixels: features of turned images are as good.
         if (features.dataset_fingerprint != io::fingerprint(dataset, Parallel::shared()))
           dataset.exif_orientation = ExifOrientation::obey;
         check(dataset.exif_orientation == ExifOrientation::ignore ||
                   features.dataset_fingerprint == io::fingerprint(dataset, Parallel::shared()),
-              features_file.string(), ": features of other pictures than those in ", dataset_folder.string(),
+              features_file.string(), ": features of other images than those in ", dataset_folder.string(),
               "; run svnet-features again");
         const std::vector<bool> left_out = train::named_categories(dataset, excluded, "--exclude");
         const auto available = std::count(left_out.begin(), left_out.end(), false);

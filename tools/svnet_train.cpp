@@ -1,4 +1,4 @@
-// svnet-train: pictures become features, features scores, scores train SV-net.
+// svnet-train: images become features, features scores, scores train SV-net.
 #include "command/command.h"
 #include "io/views/dataset_folder.h"
 #include "mpi/mpi_communicator.h"

@@ -1,4 +1,4 @@
-// svnet-views: where to bring the camera to see an object, from its place and size or from RGB-D pictures of it.
+// svnet-views: where to bring the camera to see an object, from its place and size or from RGB-D images of it.
 #include <array>
 #include <iomanip>
 #include <nlohmann/json.hpp>
@@ -85,7 +85,7 @@ Json object_json(const LocalisedObject& object) {
 
 LocalisedObject find_object(const Options& options, const CameraFile& camera) {
   check(camera.camera_to_world.has_value(), options.camera.string(),
-        ": the key 'pose' is missing, where the camera was for the pictures");
+        ": the key 'pose' is missing, where the camera was for the images");
   std::optional<double> unit_m;
   if (!options.depth_unit.empty()) unit_m = depth_unit_m(options.depth_unit);
   const Image before = io::read_image(options.background[0]), after = io::read_image(options.current[0]);
@@ -182,8 +182,8 @@ void write_views(const Options& options, Console& console) {
 int main(int argc, char** argv) {
   Command command("svnet-views",
                   "Says where to bring the camera to see an object from the half-sphere around it, at the distance at "
-                  "which it fills 70 % of the picture. The object's place and size are given, or measured in RGB-D "
-                  "pictures of the empty table and of the object. Prints CSV, unless --csv or --json says where to "
+                  "which it fills 70 % of the image. The object's place and size are given, or measured in RGB-D "
+                  "images of the empty table and of the object. Prints CSV, unless --csv or --json says where to "
                   "write: theta and phi in degrees and radians, the "
                   "camera's position in metres, its orientation as a quaternion (docs/camera-convention.md).",
                   "svnet-views camera.json --centre 0.4 0 0.05 --diagonal 0.2 --json views.json --plot views.png\n"
@@ -205,7 +205,7 @@ int main(int argc, char** argv) {
   centre.needs(diagonal);
   diagonal.needs(centre);
   const Argument background =
-      command.add("--background", options.background, "The empty table: a picture, and depth as 16-bit PNG or .npy")
+      command.add("--background", options.background, "The empty table: an image, and depth as 16-bit PNG or .npy")
           .exactly(2);
   const Argument current = command.add("--current", options.current, "The same with the object").exactly(2);
   background.needs(current).excludes(centre);
@@ -216,7 +216,7 @@ int main(int argc, char** argv) {
            "The unit of depth: m, cm, mm, 0.25mm (RealSense L515), 0.2mm (TUM RGB-D) or the like, or metres per unit; "
            "default: integers are millimetres, floats metres")
       .needs(current);
-  command.add("--steps", options.steps, "A folder for pictures of each step of the localisation").needs(current);
+  command.add("--steps", options.steps, "A folder for images of each step of the localisation").needs(current);
   const Argument poses =
       command.add("--poses", options.poses, "CSV with the header theta,phi in place of the paper's grid");
   const Argument fibonacci =
@@ -232,7 +232,7 @@ int main(int argc, char** argv) {
       .one_of(names_of<CameraFrame>());
   command.add("--csv", options.csv, "Writes CSV to a file");
   command.add("--json", options.json, "Writes JSON to a file");
-  command.add("--plot", options.plot, "Writes a picture of the half-sphere from above: filled dots can be reached");
+  command.add("--plot", options.plot, "Writes an image of the half-sphere from above: filled dots can be reached");
   return command.run(argc, argv, [&](Console& console) {
     if (options.current.empty() && options.centre_m.empty())
       wrong_usage("either --centre and --diagonal, or --background and --current");

@@ -3,7 +3,7 @@
 
 namespace svnet {
 
-/// What to do with the EXIF orientation of a picture: take the pixels as they are stored, or turn them as viewers do.
+/// What to do with the EXIF orientation of an image: take the pixels as they are stored, or turn them as viewers do.
 enum class ExifOrientation { ignore, obey };
 
 constexpr auto enum_table(ExifOrientation) {

@@ -38,7 +38,7 @@ Index width_of(const SheetLine& line, const SheetLayout& layout) {
 }
 
 void draw_cell(cv::Mat3b& sheet, const SheetCell& cell, Index x, Index y, const SheetLayout& layout) {
-  const Image fitted = resized_to_fit(cell.picture, layout.cell);
+  const Image fitted = resized_to_fit(cell.image, layout.cell);
   const cv::Rect place(static_cast<int>(x + (layout.cell - fitted.width) / 2),
                        static_cast<int>(y + (layout.cell - fitted.height) / 2), static_cast<int>(fitted.width),
                        static_cast<int>(fitted.height));
@@ -48,9 +48,9 @@ void draw_cell(cv::Mat3b& sheet, const SheetCell& cell, Index x, Index y, const 
 
 }  // namespace
 
-Image resized_to_fit(const Image& picture, Index side) {
-  const cv::Mat3b source = matrix_of(picture);
-  const double fit = static_cast<double>(side) / static_cast<double>(std::max(picture.height, picture.width));
+Image resized_to_fit(const Image& image, Index side) {
+  const cv::Mat3b source = matrix_of(image);
+  const double fit = static_cast<double>(side) / static_cast<double>(std::max(image.height, image.width));
   const auto fitted = [fit](int length) { return std::max<Index>(1, static_cast<int>(length * fit)); };
   Image result = white(fitted(source.rows), fitted(source.cols));
   cv::Mat3b pixels = matrix_of(result);

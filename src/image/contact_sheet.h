@@ -7,9 +7,9 @@
 
 namespace svnet {
 
-/// A picture in a square cell, at its centre, with a line of text below the cell.
+/// An image in a square cell, at its centre, with a line of text below the cell.
 struct SheetCell {
-  Image picture;
+  Image image;
   std::string caption{};
 };
 
@@ -27,17 +27,17 @@ struct SheetLine {
 
 /// Lengths in pixels.
 struct SheetLayout {
-  Index cell;        ///< side of a cell; a larger or smaller picture is resized to fit
+  Index cell;        ///< side of a cell; a larger or smaller image is resized to fit
   Index gap;         ///< after each cell
   Index margin;      ///< around the sheet, after each group and after each line
   Index text;        ///< height of the titles, and of the captions; 0 if there are none
   double font_size;  ///< relative to OpenCV's FONT_HERSHEY_SIMPLEX
 };
 
-/// Pictures and texts on white. The widest line sets the width.
+/// Images and texts on white. The widest line sets the width.
 Image contact_sheet(std::span<const SheetLine> lines, const SheetLayout& layout);
 
-/// The picture, as large as fits into a square of that side.
-Image resized_to_fit(const Image& picture, Index side);
+/// The image, as large as fits into a square of that side.
+Image resized_to_fit(const Image& image, Index side);
 
 }  // namespace svnet

@@ -29,7 +29,7 @@ cv::Mat3f linear(const cv::Mat3b& rgb, double sigma) {
 }
 
 /// The change of the light per channel: the median ratio, on which an object has little influence if it covers less
-/// than half of the picture.
+/// than half of the image.
 cv::Vec3f light_change(const cv::Mat3f& before, const cv::Mat3f& after) {
   cv::Vec3f change;
   for (int c = 0; c < 3; ++c) {
@@ -63,7 +63,7 @@ cv::Mat1f smooth_depth(const cv::Mat1f& depth) {
   return smooth;
 }
 
-/// The rise of each pixel that both pictures measured, or NaN.
+/// The rise of each pixel that both images measured, or NaN.
 cv::Mat1f measured_rise(const cv::Mat1f& before, const cv::Mat1f& after) {
   const cv::Mat1f table = smooth_depth(before);
   cv::Mat1f rise(before.size(), std::numeric_limits<float>::quiet_NaN());

@@ -10,7 +10,7 @@ struct Foreground {
   cv::Mat1b mask;        // 255 or 0
 };
 
-/// Compares a picture with one of the background from the same place. Colours are 8-bit RGB; depth is in metres along
+/// Compares an image with one of the background from the same place. Colours are 8-bit RGB; depth is in metres along
 /// the camera's axis, 0: not measured.
 Foreground find_foreground(const cv::Mat3b& background_rgb, const cv::Mat1f& background_depth_m, const cv::Mat3b& rgb,
                            const cv::Mat1f& depth_m);

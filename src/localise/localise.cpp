@@ -18,10 +18,10 @@ using view::Intrinsics;
 namespace {
 
 void check_fits(const Intrinsics& camera, const RgbdView& view, const char* which) {
-  check(view.rgb.width == camera.width && view.rgb.height == camera.height, "[localise] the ", which, " picture has ",
+  check(view.rgb.width == camera.width && view.rgb.height == camera.height, "[localise] the ", which, " image has ",
         view.rgb.width, "x", view.rgb.height, " pixels, the camera ", camera.width, "x", camera.height);
   check(view.depth.width == camera.width && view.depth.height == camera.height, "[localise] the ", which,
-        " depth picture has ", view.depth.width, "x", view.depth.height, " pixels, the camera ", camera.width, "x",
+        " depth image has ", view.depth.width, "x", view.depth.height, " pixels, the camera ", camera.width, "x",
         camera.height);
 }
 
@@ -33,18 +33,18 @@ cv::Mat1f depth_of(const DepthImage& image) {
   return depth;
 }
 
-Image image_of(const cv::Mat& picture) {
+Image image_of(const cv::Mat& image) {
   cv::Mat3b rgb;
-  if (picture.channels() == 1)
-    cv::cvtColor(picture, rgb, cv::COLOR_GRAY2RGB);
+  if (image.channels() == 1)
+    cv::cvtColor(image, rgb, cv::COLOR_GRAY2RGB);
   else
-    rgb = picture;
-  Image image{rgb.rows, rgb.cols, {}};
-  for (int y = 0; y < rgb.rows; ++y) image.rgb.insert(image.rgb.end(), rgb.ptr(y), rgb.ptr(y) + 3 * rgb.cols);
-  return image;
+    rgb = image;
+  Image result{rgb.rows, rgb.cols, {}};
+  for (int y = 0; y < rgb.rows; ++y) result.rgb.insert(result.rgb.end(), rgb.ptr(y), rgb.ptr(y) + 3 * rgb.cols);
+  return result;
 }
 
-/// The height in the world that most of a depth picture has: that of the table.
+/// The height in the world that most of a depth image has: that of the table.
 std::optional<double> common_height_m(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
                                       const cv::Mat1f& depth) {
   constexpr int kStep_px = 4;
@@ -115,7 +115,7 @@ void check_horizontal(const Intrinsics& camera, const Eigen::Isometry3d& camera_
         "with z up");
 }
 
-/// Throws Error if the object is a hole in the table: then the pictures are exchanged.
+/// Throws Error if the object is a hole in the table: then the images are exchanged.
 void check_order(const Foreground& foreground, const cv::Mat1b& object, const cv::Mat1f& before,
                  const cv::Mat1f& after) {
   constexpr float kRise_m = 0.002f;
@@ -133,11 +133,11 @@ void check_order(const Foreground& foreground, const cv::Mat1b& object, const cv
       if (object(y, x) != 0) ++measured, sum_m += static_cast<double>(rise);
     }
   check((fell < kLeast_px || fell <= rose) && (measured == 0 || sum_m / measured > -kMeanFall_m),
-        "[localise] what is new lies below the table; are the pictures of the table and of the object exchanged? ",
-        fell, " pixels are further from the camera than before, ", rose, " are nearer");
+        "[localise] what is new lies below the table; are the images of the table and of the object exchanged? ", fell,
+        " pixels are further from the camera than before, ", rose, " are nearer");
 }
 
-/// Throws Error unless a quarter of the object's pixels have a depth in both pictures, and half of its contour has one
+/// Throws Error unless a quarter of the object's pixels have a depth in both images, and half of its contour has one
 /// within a pixel. Cameras measure none of black, shiny and transparent surfaces; the rest, such as the ground of a cup
 /// or pixels of the table, would stand for the object.
 void check_measured(const cv::Mat1b& object, const std::vector<std::vector<cv::Point>>& contours,
@@ -148,7 +148,7 @@ void check_measured(const cv::Mat1b& object, const std::vector<std::vector<cv::P
   const int pixels = cv::countNonZero(object), needed = static_cast<int>(std::ceil(kShare * pixels));
   for (const auto& [depth, which] : {std::pair(&before, "background"), std::pair(&after, "current")}) {
     const int measured = cv::countNonZero(object & (*depth > 0));
-    check(measured >= needed, "[localise] the ", which, " depth picture has depth at ", measured, " of the object's ",
+    check(measured >= needed, "[localise] the ", which, " depth image has depth at ", measured, " of the object's ",
           pixels, " pixels, at least ", needed, kAdvice);
   }
   cv::Mat1b near;
@@ -157,7 +157,7 @@ void check_measured(const cv::Mat1b& object, const std::vector<std::vector<cv::P
   for (const auto& contour : contours)
     for (const cv::Point& p : contour) ++length, measured += near(p) != 0;
   const int needed_length = static_cast<int>(std::ceil(kContourShare * length));
-  check(measured >= needed_length, "[localise] the current depth picture has depth at ", measured, " of the ", length,
+  check(measured >= needed_length, "[localise] the current depth image has depth at ", measured, " of the ", length,
         " pixels of the object's contour, at least ", needed_length, kAdvice);
 }
 
@@ -190,9 +190,8 @@ cv::Mat1b object_mask(const cv::Mat1b& foreground, bool take_largest) {
     for (int x = 0; x < foreground.cols; ++x)
       if (foreground(y, x) != 0) ++area[static_cast<std::size_t>(labels.at<int>(y, x))];
   const auto largest = std::max_element(area.begin() + 1, area.end());
-  check(
-      count > 1 && *largest >= kLeast_px,
-      "[localise] nothing is found: the picture does not differ from the background; check that the object is in view");
+  check(count > 1 && *largest >= kLeast_px,
+        "[localise] nothing is found: the image does not differ from the background; check that the object is in view");
   const auto objects = std::count_if(area.begin() + 1, area.end(),
                                      [&](int pixels) { return pixels >= kLeast_px && pixels >= *largest / 12; });
   check(objects == 1 || take_largest, "[localise] there are ", objects,
@@ -244,7 +243,7 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
             around.push_back(z_of(y + dy, x + dx, current(y + dy, x + dx)));
       if (around.size() >= 3) top.push_back(percentile(around, 0.5));
     }
-  check(!table.empty() && !top.empty(), "[localise] the depth pictures have no measurements where the object is");
+  check(!table.empty() && !top.empty(), "[localise] the depth images have no measurements where the object is");
   const double table_m = percentile(table, 0.5);
   // Almost the highest pixel. The limit in pixels is for large objects, whose highest part may be small: a hook or the
   // end of a handle.
@@ -253,15 +252,15 @@ Heights heights(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_wor
   const double height_m = percentile(top, 1 - share) - table_m;
   constexpr double kNoise_m = 0.005;
   check(height_m > -kNoise_m, "[localise] what is new lies ", -height_m,
-        " m below the table; are the pictures of the table and of the object exchanged?");
+        " m below the table; are the images of the table and of the object exchanged?");
   return {table_m, std::max(height_m, 0.0)};
 }
 
-/// Pictures of kLocaliseSteps.
-std::vector<Image> pictures_of_steps(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
-                                     const Foreground& foreground, const cv::Mat1b& object, const cv::Mat3b& after,
-                                     const std::vector<std::vector<cv::Point>>& contours,
-                                     const cv::RotatedRect& rectangle_mm, const LocalisedObject& found) {
+/// Images of kLocaliseSteps.
+std::vector<Image> images_of_steps(const Intrinsics& camera, const Eigen::Isometry3d& camera_to_world,
+                                   const Foreground& foreground, const cv::Mat1b& object, const cv::Mat3b& after,
+                                   const std::vector<std::vector<cv::Point>>& contours,
+                                   const cv::RotatedRect& rectangle_mm, const LocalisedObject& found) {
   cv::Mat1b grey;
   foreground.difference.convertTo(grey, CV_8U, 8);
   cv::Mat3b drawn = after.clone();
@@ -291,16 +290,16 @@ std::string doubt_about_unit(double unit_m, double distance_m) {
                 unit_m > 0 ? "(" + depth_unit_name(unit_m) + ") " : "", "wrong? See --depth-unit");
 }
 
-/// Both pictures of a table, and the pose of the camera for them.
-struct Pictures {
+/// Both images of a table, and the pose of the camera for them.
+struct Images {
   const Intrinsics& camera;
   const Eigen::Isometry3d& camera_to_world;
   cv::Mat3b before, after;
   cv::Mat1f depth_before, depth_after;
 };
 
-LocalisedObject measured_object(const Pictures& pictures, const LocaliseOptions& options) {
-  const auto& [camera, camera_to_world, before, after, depth_before, depth_after] = pictures;
+LocalisedObject measured_object(const Images& images, const LocaliseOptions& options) {
+  const auto& [camera, camera_to_world, before, after, depth_before, depth_after] = images;
   const Foreground foreground = find_foreground(before, depth_before, after, depth_after);
   const cv::Mat1b object = object_mask(foreground.mask, options.take_largest);
 
@@ -317,14 +316,14 @@ LocalisedObject measured_object(const Pictures& pictures, const LocaliseOptions&
   for (const auto& contour : contours)
     for (const cv::Point& p : contour) {
       check(p.x > 0 && p.y > 0 && p.x + 1 < object.cols && p.y + 1 < object.rows,
-            "[localise] the object is cut off by the border of the picture; move it or the camera");
+            "[localise] the object is cut off by the border of the image; move it or the camera");
       const float depth = depth_near(depth_after, inside, object, p.y, p.x);
       if (depth <= 0) continue;
       const Eigen::Vector3d at = 1000 * (camera_to_world * deprojected_m(camera, p.x, p.y, depth));
       outline.emplace_back(static_cast<float>(at.x()), static_cast<float>(at.y()));
       pixel_mm += 1000 * depth / std::sqrt(camera.fx * camera.fy);
     }
-  check(outline.size() >= 3, "[localise] the depth picture has no measurements along the object's contour");
+  check(outline.size() >= 3, "[localise] the depth image has no measurements along the object's contour");
   pixel_mm /= static_cast<double>(outline.size());
   const cv::RotatedRect rectangle = cv::minAreaRect(outline);
   constexpr double kSoftness_px = 0.3;  // error of a contour point, mostly from the size of the pixels
@@ -343,7 +342,7 @@ LocalisedObject measured_object(const Pictures& pictures, const LocaliseOptions&
   result.diagonal_m = std::sqrt(result.length_m * result.length_m + result.width_m * result.width_m +
                                 result.height_m * result.height_m);
   if (options.keep_steps)
-    result.steps = pictures_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
+    result.steps = images_of_steps(camera, camera_to_world, foreground, object, after, contours, rectangle, result);
   return result;
 }
 
@@ -361,18 +360,18 @@ LocalisedObject locate(const Intrinsics& camera, const Eigen::Isometry3d& camera
         "; give the pose of its optical frame (z forward) in a world with z up");
   check_fits(camera, background, "background");
   check_fits(camera, current, "current");
-  const Pictures pictures{camera,
-                          camera_to_world,
-                          matrix_of(background.rgb),
-                          matrix_of(current.rgb),
-                          depth_of(background.depth),
-                          depth_of(current.depth)};
+  const Images images{camera,
+                      camera_to_world,
+                      matrix_of(background.rgb),
+                      matrix_of(current.rgb),
+                      depth_of(background.depth),
+                      depth_of(current.depth)};
   const double camera_m = camera_to_world.translation().z(), unit_m = background.depth.unit_m;
-  const double table_m = common_height_m(camera, camera_to_world, pictures.depth_before).value_or(0);
+  const double table_m = common_height_m(camera, camera_to_world, images.depth_before).value_or(0);
   if (!options.unit_is_certain) check_unit(unit_m, camera_m, table_m);
   LocalisedObject result;
   try {
-    result = measured_object(pictures, options);
+    result = measured_object(images, options);
   } catch (const Error& error) {
     fail(error.what(), doubt_about_unit(unit_m, camera_m - table_m));
   }

@@ -8,7 +8,7 @@
 #include "image/image.h"
 #include "view/camera.h"
 
-// Measures where an object is and how large (section 3 of the paper), from one RGB-D picture of the empty table and one
+// Measures where an object is and how large (section 3 of the paper), from one RGB-D image of the empty table and one
 // with the object, both from the same camera pose.
 namespace svnet::localise {
 
@@ -24,7 +24,7 @@ struct LocaliseOptions {
   bool unit_is_certain = false;
 };
 
-/// The names of the pictures of the steps: the difference of the colours, the object's pixels, their contour with the
+/// The names of the images of the steps: the difference of the colours, the object's pixels, their contour with the
 /// rectangle and the centre, the rise in depth.
 constexpr std::array<const char*, 4> kLocaliseSteps{"difference", "foreground", "contour", "height"};
 
@@ -37,7 +37,7 @@ struct LocalisedObject {
   double height_m;           // above the table
   double yaw_rad;            // angle from the world's x axis to the longer side, in [0, π)
   double diagonal_m;         // d = √(length² + width² + height²)
-  std::vector<Image> steps;  // the pictures of kLocaliseSteps; empty without keep_steps
+  std::vector<Image> steps;  // the images of kLocaliseSteps; empty without keep_steps
 };
 
 /// Finds the object. Its pixels are those that changed their colour, except for shadows, which only got darker and did
@@ -45,9 +45,9 @@ struct LocalisedObject {
 /// A changed brightness of the light, sensor noise and pixels without depth are tolerated. `camera_to_world` is the
 /// pose of the optical frame in a world whose z axis is vertical.
 ///
-/// Throws Error if the pictures do not have the camera's size, nothing is found, the object touches the border, there
+/// Throws Error if the images do not have the camera's size, nothing is found, the object touches the border, there
 /// are several objects, less than a quarter of the object's pixels have depth, the object lies below the table (the
-/// pictures are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more,
+/// images are exchanged), the camera looks less than 6 degrees downwards, the table is tilted by 20 degrees or more,
 /// the object is larger than 1.5 m, or the unit of depth is doubtful: the table is far from z = 0, and with another
 /// unit it is not.
 LocalisedObject locate(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const RgbdView& background,

@@ -5,7 +5,7 @@
 namespace svnet::simulation {
 namespace {
 
-/// Whether the object reaches the border of the picture.
+/// Whether the object reaches the border of the image.
 bool is_cut_off(const Shot& shot) {
   const auto object_at = [&](Index y, Index x) { return shot.mask[static_cast<std::size_t>(y * shot.width + x)] != 0; };
   for (Index x = 0; x < shot.width; ++x)
@@ -29,7 +29,7 @@ CollectedPose attempt(const RestingMesh& object, Index pose, Index size, std::ui
   for (std::size_t view = 0; view < posed.views.size(); ++view) {
     result.views.push_back(capture_view(posed, scene, result.object, size, seed, number, view));
     check(!is_cut_off(result.views.back().shot), "the object is cut off in a view");
-    result.views.back().shot.radiance = {};  // only the picture needed it
+    result.views.back().shot.radiance = {};  // only the image needed it
   }
   return result;
 }

@@ -14,12 +14,10 @@ using view::Intrinsics;
 
 namespace {
 
-// Indices of the pictures of one pose, 0 … 2^16 - 1; views have their own index. kPlan keys the numbers of pose_object.
+// Indices of the images of one pose, 0 … 2^16 - 1; views have their own index. kPlan keys the numbers of pose_object.
 constexpr std::uint32_t kOverview = 0xfffd, kBackground = 0xfffe, kPlan = 0xffff;
 
-PictureKey key_of(std::uint64_t seed, std::uint32_t number, std::uint32_t picture) {
-  return {seed, number << 16 | picture};
-}
+ImageKey key_of(std::uint64_t seed, std::uint32_t number, std::uint32_t image) { return {seed, number << 16 | image}; }
 
 }  // namespace
 
@@ -70,12 +68,12 @@ Overview capture_overview(const PosedObject& posed, const Scene& scene, std::uin
   RandomStream random(seed, Stream::collection,
                       std::uint64_t{key_of(seed, number, kOverview).number} << 32 | 0xffffffff);
   const auto brighter = static_cast<float>(0.97 + 0.06 * random.uniform());
-  const auto picture = [&](const Scene& seen, std::uint32_t index, float exposure) {
-    const PictureKey key = key_of(seed, number, index);
-    return sensor_picture(seen.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
+  const auto image = [&](const Scene& seen, std::uint32_t index, float exposure) {
+    const ImageKey key = key_of(seed, number, index);
+    return sensor_image(seen.shoot(overview_camera(), overview_camera_to_world(), key, kSamples), key, exposure);
   };
   const Scene empty(nullptr, posed.object_to_world, posed.setting);
-  return {picture(empty, kBackground, 1), picture(scene, kOverview, brighter)};
+  return {image(empty, kBackground, 1), image(scene, kOverview, brighter)};
 }
 
 CapturedView capture_view(const PosedObject& posed, const Scene& scene, const localise::LocalisedObject& object,
@@ -84,9 +82,9 @@ CapturedView capture_view(const PosedObject& posed, const Scene& scene, const lo
   const Intrinsics camera = view_camera(size);
   const Eigen::Isometry3d from =
       look_at(posed.views[view], viewing_radius_m(camera, object.diagonal_m), object.centre_m, CameraFrame::optical);
-  const PictureKey key = key_of(seed, number, static_cast<std::uint32_t>(view));
+  const ImageKey key = key_of(seed, number, static_cast<std::uint32_t>(view));
   CapturedView captured{scene.shoot(camera, from, key, kSamples), {}};
-  captured.picture = sensor_picture(captured.shot, key);
+  captured.image = sensor_image(captured.shot, key);
   return captured;
 }
 

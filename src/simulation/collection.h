@@ -36,9 +36,9 @@ constexpr double kSmallestObject_m = 0.001, kLargestObject_m = 1;
 /// The camera of the views: size x size pixels, the angle of view of the paper's camera.
 view::Intrinsics view_camera(Index size);
 
-/// Pictures of the empty table and of the object from the overview camera. The light changes a little between them.
+/// Images of the empty table and of the object from the overview camera. The light changes a little between them.
 struct Overview {
-  RgbdPicture background, current;
+  RgbdImage background, current;
 };
 Overview capture_overview(const PosedObject&, std::uint64_t seed, std::uint32_t number);
 /// With the scene of the posed object.
@@ -47,7 +47,7 @@ Overview capture_overview(const PosedObject&, const Scene&, std::uint64_t seed, 
 /// View `view` of posed.views: the camera looks at the localised object's centre from its viewing radius.
 struct CapturedView {
   Shot shot;
-  RgbdPicture picture;
+  RgbdImage image;
 };
 CapturedView capture_view(const PosedObject&, const Scene&, const localise::LocalisedObject&, Index size,
                           std::uint64_t seed, std::uint32_t number, std::size_t view);

@@ -12,9 +12,9 @@ using Vec2 = Eigen::Vector2f;
 using Vec3 = Eigen::Vector3f;
 
 /// What modulates a material's colour; `scale_m` is the size of its details.
-enum class Texture { plain, wood, brushed, speckled, stripes, checks, picture };
+enum class Texture { plain, wood, brushed, speckled, stripes, checks, image };
 
-/// What a picture shows beyond [0, 1].
+/// What an image shows beyond [0, 1].
 enum class Wrap { repeat, mirror, clamp };
 
 /// How a surface looks. Colours are linear RGB in [0, 1].
@@ -27,10 +27,10 @@ struct Material {
   float sharpness = 40;  // exponent of the highlight
   bool metal = false;    // reflects in its own colour and scatters little
   float clear = 0;       // share of light that passes, [0, 1)
-  int picture = -1;      // index into Mesh::pictures; multiplies `colour` if texture is `picture`
-  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};  // of the picture, along u and v
-  // The share of metal per point: metal_factor times the blue channel of this picture; `metal` counts if it is -1.
-  int metal_picture = -1;
+  int image = -1;        // index into Mesh::images; multiplies `colour` if texture is `image`
+  std::array<Wrap, 2> wrap{Wrap::repeat, Wrap::repeat};  // of the image, along u and v
+  // The share of metal per point: metal_factor times the blue channel of this image; `metal` counts if it is -1.
+  int metal_image = -1;
   float metal_factor = 1;
 };
 
@@ -43,11 +43,11 @@ struct Mesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<std::array<Vec3, 3>> normals;   // per corner of each triangle; shade_smoothly fills them
-  std::vector<std::array<Vec2, 3>> uv;        // as normals, or empty where no texture is a picture
-  std::vector<std::array<Vec2, 3>> metal_uv;  // as uv, of the metal pictures
+  std::vector<std::array<Vec2, 3>> uv;        // as normals, or empty where no texture is an image
+  std::vector<std::array<Vec2, 3>> metal_uv;  // as uv, of the metal images
   std::vector<std::array<Vec3, 3>> tints;     // as normals, or empty: linear colours that multiply the material's
   std::vector<Material> materials;
-  std::vector<Image> pictures;
+  std::vector<Image> images;
 };
 
 /// Normals per corner: the mean of those of the triangles around the point, weighted by area, that turn from this one

@@ -34,7 +34,7 @@ const Image& fullest_view(const CollectedPose& pose) {
     const auto pixels = static_cast<std::ptrdiff_t>(mask.size()) - std::count(mask.begin(), mask.end(), 0);
     if (pose.posed.views[view].phi_deg < 90 && pixels > most) most = pixels, best = view;
   }
-  return pose.views[best].picture.rgb;
+  return pose.views[best].image.rgb;
 }
 
 /// Writes the views into `folder` and everything else into `extra`. Returns the pose's entry of the manifest.
@@ -52,8 +52,8 @@ Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, c
     const view::CameraPose& from = pose.posed.views[i];
     const std::string name =
         std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
-    io::write_png(folder / (name + ".png"), view.picture.rgb);
-    io::write_depth_png(extra / (name + "_depth.png"), view.picture.depth);
+    io::write_png(folder / (name + ".png"), view.image.rgb);
+    io::write_depth_png(extra / (name + "_depth.png"), view.image.depth);
     io::write_grey_png(extra / (name + "_mask.png"), view.shot.height, view.shot.width, view.shot.mask);
     names.push_back(name);
   }
@@ -70,7 +70,7 @@ Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, c
 /// What is kept of a pose until the end.
 struct Entry {
   Json manifest;
-  Image picture;        // for the contact sheet, perhaps
+  Image image;          // for the contact sheet, perhaps
   std::string problem;  // why the pose is left out
 };
 
@@ -101,9 +101,9 @@ class RenderJob {
     for (std::size_t i = 0; i < sources_.size(); ++i)
       if (!objects_[i].problem().empty()) objects_left_out.push_back(sources_[i].category + "/" + sources_[i].object);
     const Index poses = pose_count() - left_out, of_objects = static_cast<Index>(objects_left_out.size());
-    const Index pictures = write_summaries(folder.path());
+    const Index images = write_summaries(folder.path());
     folder.keep();
-    return {pictures, poses, left_out - options_.poses * of_objects, static_cast<Index>(sources_.size()),
+    return {images, poses, left_out - options_.poses * of_objects, static_cast<Index>(sources_.size()),
             std::move(objects_left_out)};
   }
 
@@ -157,7 +157,7 @@ class RenderJob {
   }
 
   void render_pose(Index number, const fs::path& folder) {
-    constexpr Index kSheetPictures = 15;  // of each category, so that the sheet fits a screen's width
+    constexpr Index kSheetImages = 15;  // of each category, so that the sheet fits a screen's width
     const Index pose = number % options_.poses;
     const ObjectSource& source = sources_[source_of(number)];
     const fs::path place = place_of(number);
@@ -173,8 +173,8 @@ class RenderJob {
     if (!collection.pose) return;
     entry.manifest =
         write_pose(*collection.pose, collection.attempts, options_.size, folder / place, folder / "_extra" / place);
-    if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetPictures)
-      entry.picture = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
+    if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetImages)
+      entry.image = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
   }
 
   /// Says what its object lacks, and why it is left out.
@@ -193,10 +193,10 @@ class RenderJob {
     }
   }
 
-  /// The manifest, the contact sheet and the cameras. Returns the number of pictures.
+  /// The manifest, the contact sheet and the cameras. Returns the number of images.
   Index write_summaries(const fs::path& folder) {
     Json manifest{{"program", joined("svnet-render ", kVersion)}, {"seed", options_.seed}, {"size_px", options_.size}};
-    Index pictures = 0;
+    Index images = 0;
     std::vector<SheetLine> sheet;
     for (Index number = 0; number < pose_count(); ++number) {
       const ObjectSource& source = sources_[source_of(number)];
@@ -205,11 +205,11 @@ class RenderJob {
         manifest["left_out"][source.category][source.object][pose_name(number)] = std::move(entry.problem);
         continue;
       }
-      pictures += static_cast<Index>(entry.manifest.at("views").size());
+      images += static_cast<Index>(entry.manifest.at("views").size());
       manifest["poses"][source.category][source.object][pose_name(number)] = std::move(entry.manifest);
       if (sheet.empty() || sheet.back().label != source.category)
         sheet.push_back({.groups = std::vector<SheetGroup>(1), .label = source.category});
-      if (!entry.picture.rgb.empty()) sheet.back().groups[0].cells.push_back({std::move(entry.picture)});
+      if (!entry.image.rgb.empty()) sheet.back().groups[0].cells.push_back({std::move(entry.image)});
     }
     io::write_png(folder / "_extra" / "contact_sheet.png", contact_sheet(sheet, kSheet));
     // Messages may quote bytes of a mesh file that are not UTF-8.
@@ -217,7 +217,7 @@ class RenderJob {
     io::write_atomically(folder / "_extra" / "overview_camera.json",
                          io::camera_json({overview_camera(), overview_camera_to_world()}));
     io::write_atomically(folder / "_extra" / "view_camera.json", io::camera_json({view_camera(options_.size), {}}));
-    return pictures;
+    return images;
   }
 
   const RenderOptions& options_;

@@ -28,7 +28,7 @@ struct RenderOptions {
 };
 
 struct RenderSummary {
-  Index pictures = 0, poses = 0;                // rendered
+  Index images = 0, poses = 0;                  // rendered
   Index left_out = 0;                           // poses that could not be collected, of objects that could be used
   Index objects = 0;                            // that were asked for
   std::vector<std::string> objects_left_out{};  // "CATEGORY/OBJECT"

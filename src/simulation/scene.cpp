@@ -43,7 +43,7 @@ std::pair<Vec3, Vec3> tangents(const Vec3& n) {
 }
 
 /// Four uniform numbers in [0, 1).
-std::array<float, 4> uniforms(const PictureKey& key, std::uint32_t pixel, std::uint32_t step) {
+std::array<float, 4> uniforms(const ImageKey& key, std::uint32_t pixel, std::uint32_t step) {
   const auto words = random_words(key.seed, Stream::collection, std::uint64_t{key.number} << 32 | pixel, step);
   std::array<float, 4> result{};
   for (std::size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(words[i] >> 8) * 0x1p-24f;
@@ -55,7 +55,7 @@ std::array<float, 4> uniforms(const PictureKey& key, std::uint32_t pixel, std::u
 struct PixelNumbers {
   std::array<std::uint32_t, 4> words;
 
-  PixelNumbers(const PictureKey& key, std::uint32_t pixel)
+  PixelNumbers(const ImageKey& key, std::uint32_t pixel)
       : words(random_words(key.seed, Stream::collection, std::uint64_t{key.number} << 32 | pixel, 2)) {}
 
   /// The first sample lies in the pixel's centre, the others at random places of its quarters.
@@ -69,7 +69,7 @@ struct PixelNumbers {
 
 /// Four numbers in [0, 1), each in another of `samples` equal parts for each sample of a pixel (a Latin hypercube, with
 /// strides that are coprime to powers of two), which takes most of the noise out of shadows.
-std::array<float, 4> stratified(const PictureKey& key, const PixelNumbers& shared, std::uint32_t pixel,
+std::array<float, 4> stratified(const ImageKey& key, const PixelNumbers& shared, std::uint32_t pixel,
                                 std::uint32_t sample, std::uint32_t samples, std::uint32_t surfaces) {
   std::array<float, 4> result = uniforms(key, pixel, 3 + sample + 64 * surfaces);
   constexpr std::array<std::uint32_t, 4> kStride{1, 3, 1, 3};
@@ -204,10 +204,10 @@ struct Scene::Tracer {
       return (w * corner[0] + hit.u * corner[1] + hit.v * corner[2]).eval();
     };
     const Vec2 uv = mesh->uv.empty() ? Vec2(0, 0) : between(mesh->uv[hit.triangle]);
-    s.colour = surface_colour(*s.material, to_local * s.point, uv, mesh->pictures);
+    s.colour = surface_colour(*s.material, to_local * s.point, uv, mesh->images);
     if (!mesh->tints.empty()) s.colour = s.colour.cwiseProduct(between(mesh->tints[hit.triangle]));
     s.metal = mesh->metal_uv.empty() ? s.material->metal
-                                     : is_metal(*s.material, between(mesh->metal_uv[hit.triangle]), mesh->pictures);
+                                     : is_metal(*s.material, between(mesh->metal_uv[hit.triangle]), mesh->images);
     return s;
   }
 
@@ -260,7 +260,7 @@ struct Scene::Tracer {
   }
 
   /// Light along a ray, through clear surfaces. `plain` is set where it comes from the table alone, without a shadow.
-  Vec3 radiance(const Vec3& origin, const Vec3& direction, Hit hit, const PictureKey& key, const PixelNumbers& shared,
+  Vec3 radiance(const Vec3& origin, const Vec3& direction, Hit hit, const ImageKey& key, const PixelNumbers& shared,
                 std::uint32_t pixel, std::uint32_t sample, std::uint32_t samples, bool& plain) const {
     Vec3 light = Vec3::Zero(), share = Vec3::Ones();
     plain = !hit.object();
@@ -320,7 +320,7 @@ Scene::Scene(const Mesh* mesh, const Eigen::Isometry3d& object_to_world, const S
 
 Scene::~Scene() = default;
 
-Shot Scene::shoot(const view::Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const PictureKey& key,
+Shot Scene::shoot(const view::Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const ImageKey& key,
                   int samples) const {
   Shot shot;
   shot.height = camera.height;

@@ -10,8 +10,8 @@
 
 namespace svnet::simulation {
 
-/// The key of a picture's random numbers: pixel p uses the index `number` << 32 | p of the seed, on any thread.
-struct PictureKey {
+/// The key of an image's random numbers: pixel p uses the index `number` << 32 | p of the seed, on any thread.
+struct ImageKey {
   std::uint64_t seed = 0;
   std::uint32_t number = 0;
 };
@@ -35,7 +35,7 @@ class Scene {
 
   /// `camera_to_world` is the pose of the optical frame. Requires a camera above the table. Traces `samples` rays per
   /// pixel, the first one through its centre.
-  Shot shoot(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const PictureKey&, int samples) const;
+  Shot shoot(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const ImageKey&, int samples) const;
 
  private:
   struct Tracer;

@@ -52,11 +52,11 @@ bool on_silhouette(const DepthImage& depth, Index y, Index x) {
 
 }  // namespace
 
-RgbdPicture sensor_picture(const Shot& shot, const PictureKey& key, float exposure) {
+RgbdImage sensor_image(const Shot& shot, const ImageKey& key, float exposure) {
   constexpr float kDepthNoise = 0.0014f, kHoleShare = 0.6f;
   constexpr float kShotNoise = 0.0003f, kReadNoise = 0.0016f;  // variance per light, and σ in the dark
-  RgbdPicture picture{{shot.height, shot.width, std::vector<std::uint8_t>(shot.radiance.size() * 3)},
-                      {shot.height, shot.width, std::vector<float>(shot.radiance.size())}};
+  RgbdImage image{{shot.height, shot.width, std::vector<std::uint8_t>(shot.radiance.size() * 3)},
+                  {shot.height, shot.width, std::vector<float>(shot.radiance.size())}};
   const std::vector<Vec3> light = blurred(shot.radiance, shot.height, shot.width);
   for (Index y = 0; y < shot.height; ++y)
     for (Index x = 0; x < shot.width; ++x) {
@@ -66,16 +66,16 @@ RgbdPicture sensor_picture(const Shot& shot, const PictureKey& key, float exposu
       for (std::size_t c = 0; c < 3; ++c) {
         const float value = exposure * light[pixel][static_cast<Index>(c)];
         const float sigma = std::sqrt(kShotNoise * std::max(value, 0.0f) + kReadNoise * kReadNoise);
-        picture.rgb.rgb[3 * pixel + c] = static_cast<std::uint8_t>(std::lround(srgb_from_linear(value + sigma * n[c])));
+        image.rgb.rgb[3 * pixel + c] = static_cast<std::uint8_t>(std::lround(srgb_from_linear(value + sigma * n[c])));
       }
       const float z = shot.depth.metres[pixel];
       if (z <= 0) continue;
       if (on_silhouette(shot.depth, y, x) &&
           static_cast<float>(random_words(key.seed, Stream::collection, index, 1)[0] >> 8) * 0x1p-24f < kHoleShare)
         continue;
-      picture.depth.metres[pixel] = std::max(0.0f, std::round(1000 * (z + kDepthNoise * z * z * n[3])) / 1000);
+      image.depth.metres[pixel] = std::max(0.0f, std::round(1000 * (z + kDepthNoise * z * z * n[3])) / 1000);
     }
-  return picture;
+  return image;
 }
 
 }  // namespace svnet::simulation

@@ -49,13 +49,13 @@ Index texel(float t, Index size, Wrap wrap) {
   return std::clamp(static_cast<Index>(part * static_cast<float>(size)), Index{0}, size - 1);
 }
 
-/// The picture's nearest pixel, three levels.
+/// The image's nearest pixel, three levels.
 const std::uint8_t* pixel_at(const Image& image, const Vec2& uv, const std::array<Wrap, 2>& wrap) {
   const Index y = texel(1 - uv.y(), image.height, wrap[1]), x = texel(uv.x(), image.width, wrap[0]);
   return &image.rgb[static_cast<std::size_t>(3 * (y * image.width + x))];
 }
 
-Vec3 picture_colour(const Image& image, const Vec2& uv, const std::array<Wrap, 2>& wrap) {
+Vec3 image_colour(const Image& image, const Vec2& uv, const std::array<Wrap, 2>& wrap) {
   const std::uint8_t* rgb = pixel_at(image, uv, wrap);
   return {linear_from_srgb(rgb[0]), linear_from_srgb(rgb[1]), linear_from_srgb(rgb[2])};
 }
@@ -90,15 +90,15 @@ float srgb_from_linear(float value) {
   return kTable[below] + (place - static_cast<float>(below)) * (kTable[below + 1] - kTable[below]);
 }
 
-Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv, const std::vector<Image>& pictures) {
+Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv, const std::vector<Image>& images) {
   float share = 0;
   const Vec3 p = local / material.scale_m;
   switch (material.texture) {
     case Texture::plain:
       return material.colour;
-    case Texture::picture:
+    case Texture::image:
       return material.colour.cwiseProduct(
-          picture_colour(pictures[static_cast<std::size_t>(material.picture)], uv, material.wrap));
+          image_colour(images[static_cast<std::size_t>(material.image)], uv, material.wrap));
     case Texture::wood: {  // rings around an axis near x
       const float rings = p.y() + 0.7f * p.z() + 1.5f * noise(Vec3(0.12f * p.x(), 0.5f * p.y(), 0.5f * p.z()));
       share = 0.6f * (rings - std::floor(rings)) + 0.4f * noise(Vec3(0.6f * p.x(), 6 * p.y(), 6 * p.z()));
@@ -122,10 +122,10 @@ Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv,
   return material.colour + share * (material.second - material.colour);
 }
 
-bool is_metal(const Material& material, const Vec2& uv, const std::vector<Image>& pictures) {
-  if (material.metal_picture < 0) return material.metal;
-  const Image& picture = pictures[static_cast<std::size_t>(material.metal_picture)];
-  return material.metal_factor * static_cast<float>(pixel_at(picture, uv, material.wrap)[2]) / 255 > 0.5f;
+bool is_metal(const Material& material, const Vec2& uv, const std::vector<Image>& images) {
+  if (material.metal_image < 0) return material.metal;
+  const Image& image = images[static_cast<std::size_t>(material.metal_image)];
+  return material.metal_factor * static_cast<float>(pixel_at(image, uv, material.wrap)[2]) / 255 > 0.5f;
 }
 
 }  // namespace svnet::simulation

@@ -3,12 +3,12 @@
 
 namespace svnet::simulation {
 
-/// The colour of a material at a point of the object's own frame, in metres. `uv` and `pictures` matter where the
-/// texture is a picture, which multiplies the material's colour; v = 0 is its lowest row.
-Vec3 surface_colour(const Material&, const Vec3& local_m, const Vec2& uv, const std::vector<Image>& pictures);
+/// The colour of a material at a point of the object's own frame, in metres. `uv` and `images` matter where the
+/// texture is an image, which multiplies the material's colour; v = 0 is its lowest row.
+Vec3 surface_colour(const Material&, const Vec3& local_m, const Vec2& uv, const std::vector<Image>& images);
 
-/// Whether the surface is metal at `uv`: at least half of it, by the material's metal picture.
-bool is_metal(const Material&, const Vec2& uv, const std::vector<Image>& pictures);
+/// Whether the surface is metal at `uv`: at least half of it, by the material's metal image.
+bool is_metal(const Material&, const Vec2& uv, const std::vector<Image>& images);
 
 /// 8-bit sRGB to linear and back.
 float linear_from_srgb(std::uint8_t level);

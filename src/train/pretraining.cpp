@@ -12,23 +12,23 @@
 #include "train/dataset_rows.h"
 #include "train/epoch_order.h"
 #include "train/finite.h"
-#include "train/labelled_pictures.h"
+#include "train/labelled_images.h"
 #include "train/training_step.h"
 
 namespace svnet::train {
 namespace {
 
 /// Images to train on, and to validate on.
-struct PictureSplit {
+struct ImageSplit {
   std::vector<std::string> categories;
-  std::vector<LabelledPictures::Picture> training, validation;
+  std::vector<LabelledImages::Example> training, validation;
 };
 
-PictureSplit split(const ViewDataset& dataset, const PretrainingOptions& options) {
+ImageSplit split(const ViewDataset& dataset, const PretrainingOptions& options) {
   const std::vector<bool> excluded = named_categories(dataset, options.exclude, "--exclude");
   std::vector<Index> objects_left(dataset.categories.size(), 0);  // to train on
   for (const auto& object : dataset.objects) ++objects_left[static_cast<std::size_t>(object.category)];
-  PictureSplit split;
+  ImageSplit split;
   std::vector<Index> class_of(dataset.categories.size(), -1);
   for (std::size_t c = 0; c < dataset.categories.size(); ++c) {
     if (excluded[c]) continue;
@@ -66,19 +66,19 @@ Index recognised(const Tensor& logits, const std::vector<Index>& classes) {
 }
 
 /// The share of the images that the network classifies correctly.
-double accuracy(const Graph& graph, const Parameters& parameters, const LabelledPictures& pictures,
+double accuracy(const Graph& graph, const Parameters& parameters, const LabelledImages& images,
                 const InferenceOptions& options) {
   constexpr Index kBatch = 64;
   const Inference network(graph, parameters, graph.output(), options);
-  std::vector<std::int32_t> indices(static_cast<std::size_t>(pictures.size()));
+  std::vector<std::int32_t> indices(static_cast<std::size_t>(images.size()));
   std::iota(indices.begin(), indices.end(), 0);
   Index right = 0;
-  for (Index begin = 0; begin < pictures.size(); begin += kBatch) {
-    const auto count = static_cast<std::size_t>(std::min(kBatch, pictures.size() - begin));
-    const auto batch = pictures.batch(std::span(indices).subspan(static_cast<std::size_t>(begin), count));
+  for (Index begin = 0; begin < images.size(); begin += kBatch) {
+    const auto count = static_cast<std::size_t>(std::min(kBatch, images.size() - begin));
+    const auto batch = images.batch(std::span(indices).subspan(static_cast<std::size_t>(begin), count));
     right += recognised(network.run({batch.pixels}), batch.classes);
   }
-  return static_cast<double>(right) / static_cast<double>(pictures.size());
+  return static_cast<double>(right) / static_cast<double>(images.size());
 }
 
 /// The graph with another momentum of the moving statistics of batch norms.
@@ -102,8 +102,8 @@ struct ImageSums {
   Index right = 0;
 };
 
-ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimizer,
-               const LabelledPictures::Batch& batch, double rate, const PretrainingOptions& options) {
+ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimizer, const LabelledImages::Batch& batch,
+               double rate, const PretrainingOptions& options) {
   const Graph graph = with_momentum(described, momentum_at(optimizer.steps));
   const auto loss = [&](const Tensor& logits) { return ops::softmax_cross_entropy(logits, batch.classes); };
   const StepResult result = training_step(graph, parameters, optimizer, {batch.pixels}, loss,
@@ -118,10 +118,9 @@ ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimi
 
 Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages) {
   const models::BackboneKind& kind = models::backbone_kind(options.backbone);
-  const PictureSplit parts = split(dataset, options);
-  const LabelledPictures training(dataset, parts.training, kind.preprocessing, messages, "reading pictures");
-  const LabelledPictures validation(dataset, parts.validation, kind.preprocessing, messages,
-                                    "reading validation pictures");
+  const ImageSplit parts = split(dataset, options);
+  const LabelledImages training(dataset, parts.training, kind.preprocessing, messages, "reading images");
+  const LabelledImages validation(dataset, parts.validation, kind.preprocessing, messages, "reading validation images");
 
   const Graph whole = kind.graph(kind.preprocessing.height, false);
   const NodeId pooled = output_layer(kind, whole, "");

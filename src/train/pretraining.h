@@ -26,7 +26,7 @@ struct PretrainingOptions {
 struct Pretrained {
   models::Backbone backbone;
   std::vector<std::string> categories;
-  Index training_pictures = 0, validation_pictures = 0;
+  Index training_images = 0, validation_images = 0;
   /// Share of the validation images whose category is recognised; NaN if there are none.
   double validation_accuracy = std::numeric_limits<double>::quiet_NaN();
 };

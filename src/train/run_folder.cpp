@@ -37,7 +37,7 @@ bool is_named_as_result(const fs::path& file) {
 }
 
 /// Whether a reader of the dataset would find the folder.
-bool is_among_pictures(const fs::path& folder, const fs::path& root) {
+bool is_among_images(const fs::path& folder, const fs::path& root) {
   const fs::path relative = fs::weakly_canonical(folder).lexically_relative(fs::weakly_canonical(root));
   if (relative.empty() || *relative.begin() == "..") return false;
   return relative == "." || std::none_of(relative.begin(), relative.end(), io::is_ignored_name);
@@ -46,7 +46,7 @@ bool is_among_pictures(const fs::path& folder, const fs::path& root) {
 }  // namespace
 
 void check_run_folder(const fs::path& folder, const fs::path& dataset_root) {
-  check(!is_among_pictures(folder, dataset_root), folder.string(), ": lies in the data set ", dataset_root.string(),
+  check(!is_among_images(folder, dataset_root), folder.string(), ": lies in the data set ", dataset_root.string(),
         "; give another folder for the run");
   if (!fs::is_directory(folder)) return;
   const fs::path config = folder / "config.yaml";

@@ -86,7 +86,7 @@ double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) 
   double sum = 0;
   std::vector<std::int32_t> examples(static_cast<std::size_t>(set.size()));
   std::iota(examples.begin(), examples.end(), 0);
-  // Large batches of features, few pictures: a backbone's activations are up to a hundred times its input.
+  // Large batches of features, few images: a backbone's activations are up to a hundred times its input.
   const Index most = std::clamp<Index>((Index{1} << 22) / element_count(set.input_shape()), 1, 256);
   for (Index begin = 0; begin < set.size(); begin += most) {
     const auto part = std::span(examples).subspan(static_cast<std::size_t>(begin),

@@ -31,23 +31,23 @@ Tensor FeatureInputs::batch(std::span<const Index> views) const {
   return batch;
 }
 
-PictureInputs::PictureInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
-                             std::shared_ptr<const Inference> frozen, const Options& options)
+ImageInputs::ImageInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
+                         std::shared_ptr<const Inference> frozen, const Options& options)
     : dataset_(dataset),
       preprocessing_(preprocessing),
       frozen_(std::move(frozen)),
       options_(options),
       kept_row_(dataset.views.size() * static_cast<std::size_t>(options.orientations), -1) {
-  check(options.orientations == 1 || preprocessing.height == preprocessing.width, "[inputs] pictures of ",
+  check(options.orientations == 1 || preprocessing.height == preprocessing.width, "[inputs] images of ",
         preprocessing.height, "x", preprocessing.width, " cannot be turned; only square ones can");
 }
 
-Shape PictureInputs::shape() const {
+Shape ImageInputs::shape() const {
   const Shape shape = frozen_ ? frozen_->output_shape() : Shape{preprocessing_.height, preprocessing_.width, 3};
   return options_.flat ? Shape{element_count(shape)} : shape;
 }
 
-Tensor PictureInputs::compute(std::span<const Index> inputs) const {
+Tensor ImageInputs::compute(std::span<const Index> inputs) const {
   const auto count = static_cast<Index>(inputs.size());
   Tensor pixels = Tensor::empty({count, preprocessing_.height, preprocessing_.width, 3});
   // The image of a view is read once for all of its inputs that follow each other.
@@ -71,7 +71,7 @@ Tensor PictureInputs::compute(std::span<const Index> inputs) const {
   return (frozen_ ? frozen_->run({pixels}) : pixels).reshaped(batched(count, shape()));
 }
 
-Tensor PictureInputs::batch(std::span<const Index> inputs) const {
+Tensor ImageInputs::batch(std::span<const Index> inputs) const {
   const auto row_of = [&](Index input) { return kept_row_[static_cast<std::size_t>(input)]; };
   if (!std::all_of(inputs.begin(), inputs.end(), [&](Index input) { return row_of(input) >= 0; }))
     return compute(inputs);
@@ -83,7 +83,7 @@ Tensor PictureInputs::batch(std::span<const Index> inputs) const {
   return batch;
 }
 
-void PictureInputs::keep(const std::vector<Index>& views, const Messages& messages, Communicator& communicator) {
+void ImageInputs::keep(const std::vector<Index>& views, const Messages& messages, Communicator& communicator) {
   std::vector<Index> inputs;
   for (const Index view : views)
     for (int orientation = 0; orientation < options_.orientations; ++orientation)

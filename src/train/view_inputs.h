@@ -37,7 +37,7 @@ class FeatureInputs : public ViewInputs {
 
 /// The images of the views, or what the graph's frozen layers make of them. Images are read for each batch, except
 /// those that keep() holds in memory. An input has the same bits in every batch.
-class PictureInputs : public ViewInputs {
+class ImageInputs : public ViewInputs {
  public:
   struct Options {
     int orientations = 1;  ///< at most kSymmetries; if more than 1, images must be square
@@ -45,8 +45,8 @@ class PictureInputs : public ViewInputs {
   };
   /// `frozen` empty: the inputs are the pixels. Keeps a reference to the dataset. Throws Error if images must be square
   /// and are not.
-  PictureInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
-                std::shared_ptr<const Inference> frozen, const Options& options);
+  ImageInputs(const ViewDataset& dataset, const models::Preprocessing& preprocessing,
+              std::shared_ptr<const Inference> frozen, const Options& options);
   int orientations() const override { return options_.orientations; }
   Shape shape() const override;
   Tensor batch(std::span<const Index> inputs) const override;

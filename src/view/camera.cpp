@@ -10,8 +10,7 @@ namespace svnet::view {
 
 std::string intrinsics_problem(const Intrinsics& camera) {
   if (camera.width <= 0 || camera.height <= 0)
-    return joined("the picture has ", camera.width, "x", camera.height,
-                  " pixels, expected a positive width and height");
+    return joined("the image has ", camera.width, "x", camera.height, " pixels, expected a positive width and height");
   for (const auto& [name, value, size] :
        {std::tuple("fx", camera.fx, camera.width), std::tuple("fy", camera.fy, camera.height)}) {
     if (!(std::isfinite(value) && value > 0))
@@ -22,7 +21,7 @@ std::string intrinsics_problem(const Intrinsics& camera) {
   for (const auto& [name, value, size] :
        {std::tuple("cx", camera.cx, camera.width), std::tuple("cy", camera.cy, camera.height)})
     if (!(value >= -0.5 && value <= static_cast<double>(size) - 0.5))
-      return joined(name, " is ", value, ", which is outside the picture of ", size, " pixels");
+      return joined(name, " is ", value, ", which is outside the image of ", size, " pixels");
   return "";
 }
 

@@ -31,10 +31,10 @@ constexpr auto enum_table(CameraFrame) {
 /// Throws Error for an unknown name.
 CameraFrame camera_frame_named(const std::string& name);
 
-/// The share of the smaller side of the picture that the object's diagonal spans.
+/// The share of the smaller side of the image that the object's diagonal spans.
 constexpr double kViewShare = 0.7;
 
-/// The distance at which a segment of length `diagonal_m` parallel to the image plane spans kViewShare of the picture
+/// The distance at which a segment of length `diagonal_m` parallel to the image plane spans kViewShare of the image
 /// along the side with the smaller angle of view: R = d / kViewShare · max(fx / width, fy / height).
 double viewing_radius_m(const Intrinsics&, double diagonal_m);
 

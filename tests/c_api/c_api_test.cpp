@@ -65,7 +65,7 @@ std::vector<std::uint8_t> laid_out(const Image& image, const std::vector<int>& o
 TEST_CASE("the library gives the predictor's features, scores and best view") {
   const Loaded loaded;
   const Predictor predictor(small_model());
-  const Image image = small_picture();
+  const Image image = small_image();
   const std::vector<CameraPose> poses = paper_grid();
   const Tensor expected = predictor.embed(image);
   const std::vector<float> expected_scores = predictor.scores(expected, poses);
@@ -90,7 +90,7 @@ TEST_CASE("the library gives the predictor's features, scores and best view") {
 
 TEST_CASE("every pixel format and stride gives the same image") {
   const Loaded loaded;
-  const Image image = small_picture();
+  const Image image = small_image();
   const std::vector<float> expected = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
   struct Case {
     svnet_pixel_format format;
@@ -190,7 +190,7 @@ TEST_CASE("a model that cannot be loaded is NULL and says why") {
 
 TEST_CASE("each thread has its own last error, and the number of threads changes no bit") {
   const Loaded loaded;
-  const std::vector<std::uint8_t> pixels = small_picture().rgb;
+  const std::vector<std::uint8_t> pixels = small_image().rgb;
   svnet_model* none = nullptr;
   CHECK(svnet_model_load("/nonexistent/a", &none) == SVNET_INVALID_MODEL);
   const std::string mine = svnet_last_error();
@@ -213,7 +213,7 @@ TEST_CASE("each thread has its own last error, and the number of threads changes
 
 TEST_CASE("the number of threads may change while other threads compute") {
   const Loaded loaded;
-  const std::vector<std::uint8_t> pixels = small_picture().rgb;
+  const std::vector<std::uint8_t> pixels = small_image().rgb;
   const std::vector<float> expected = loaded.embed(pixels, 70, 50, 150, SVNET_RGB8);
   std::array<bool, 2> same{};
   std::vector<std::thread> others;

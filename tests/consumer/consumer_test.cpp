@@ -50,7 +50,7 @@ std::string built_project(const TemporaryFolder& folder, const fs::path& prefix)
   return build;
 }
 
-/// Command lines that take MODEL PICTURE.ppm THETA PHI… and print the scores and the index of the best.
+/// Command lines that take MODEL IMAGE.ppm THETA PHI… and print the scores and the index of the best.
 std::vector<std::string> programs(const std::string& build) {
   std::vector<std::string> commands{build + "/score_c", build + "/score_cpp"};
   if (const std::string python = PYTHON; !python.empty()) commands.push_back(python + " " CONSUMER_PROJECT "/score.py");
@@ -60,15 +60,15 @@ std::vector<std::string> programs(const std::string& build) {
 /// Checks that the programs give svnet-predict's scores for an image, to 1e-6, and the same best view. Returns the
 /// largest difference.
 double compare(const TemporaryFolder& folder, const std::vector<std::string>& commands, const std::string& model,
-               const fs::path& picture, const std::vector<CameraPose>& poses) {
+               const fs::path& image, const std::vector<CameraPose>& poses) {
   std::string csv = "theta,phi\n",
-              arguments = " " + model + " " + folder.write("top.ppm", ppm(read_image(picture))).string();
+              arguments = " " + model + " " + folder.write("top.ppm", ppm(read_image(image))).string();
   for (const CameraPose& pose : poses) {
     csv += joined(pose.theta_deg, ",", pose.phi_deg, "\n");
     arguments += joined(" ", pose.theta_deg, " ", pose.phi_deg);
   }
   const auto expected =
-      nlohmann::json::parse(output_of(folder, SVNET_PREDICT " " + model + " --image '" + picture.string() +
+      nlohmann::json::parse(output_of(folder, SVNET_PREDICT " " + model + " --image '" + image.string() +
                                                   "' --json --poses " + folder.write("poses.csv", csv).string()));
   std::map<std::pair<double, double>, double> score_of;
   for (const auto& view : expected.at("views"))
@@ -76,7 +76,7 @@ double compare(const TemporaryFolder& folder, const std::vector<std::string>& co
   REQUIRE(score_of.size() == poses.size());
   double largest = 0;
   for (const std::string& command : commands) {
-    INFO(command << " " << picture);
+    INFO(command << " " << image);
     std::istringstream lines(output_of(folder, command + arguments));
     for (const CameraPose& pose : poses) {
       double score = -1;
@@ -138,11 +138,11 @@ TEST_CASE("an outside project finds the installed library after a move, and gets
   CHECK(headers == std::vector<std::string>{"include/svnet/svnet.h", "include/svnet/svnet.hpp"});
 
   const std::string build = built_project(folder, prefix);
-  const std::string model = folder.path() / "model.safetensors", picture = folder.path() / "top.png";
+  const std::string model = folder.path() / "model.safetensors", image = folder.path() / "top.png";
   write_model(model, small_model());
   for (const auto& [height, width] : {std::pair<Index, Index>{70, 50}, {32, 32}, {33, 200}}) {
-    write_png(picture, small_picture(height, width));
-    compare(folder, programs(build), model, picture, paper_grid());
+    write_png(image, small_image(height, width));
+    compare(folder, programs(build), model, image, paper_grid());
   }
 
   // Linked from its new place, and without the libraries of training and of the commands.
@@ -167,9 +167,9 @@ TEST_CASE("pkg-config, the static library and the components of find_package") {
   const fs::path first = folder.path() / "first", prefix = folder.path() / "moved";
   output_of(folder, CMAKE " --install " BUILD_FOLDER " --prefix " + first.string());
   fs::rename(first, prefix);
-  const std::string model = folder.path() / "model.safetensors", picture = folder.path() / "top.png";
+  const std::string model = folder.path() / "model.safetensors", image = folder.path() / "top.png";
   write_model(model, small_model());
-  write_png(picture, small_picture(32, 32));
+  write_png(image, small_image(32, 32));
   const std::string pkg_config =
       "PKG_CONFIG_PATH=" + prefix.string() + "/" LIBRARY_FOLDER "/pkgconfig pkg-config --print-errors ";
   CHECK_THAT(output_of(folder, pkg_config + "--modversion svnet"), Catch::StartsWith("0."));
@@ -199,7 +199,7 @@ TEST_CASE("pkg-config, the static library and the components of find_package") {
                         " && " CMAKE " --build " + folder.path().string() + "/built");
   const std::string folder_name = folder.path().string();
   compare(folder, {folder_name + "/score_shared", folder_name + "/score_static", folder_name + "/built/score_cmake"},
-          model, picture, paper_grid());
+          model, image, paper_grid());
   for (const std::string program : {"/score_static", "/built/score_cmake"})
     CHECK_THAT(output_of(folder, "ldd " + folder_name + program), !Catch::Contains("libsvnet"));
   CHECK_THAT(output_of(folder, "ldd " + folder_name + "/score_shared"), Catch::Contains("libsvnet.so"));
@@ -228,8 +228,8 @@ TEST_CASE("photographs: command, C, C++ and Python agree on the scores of 20 ima
   const ViewDataset dataset = read_view_dataset(data);
   REQUIRE(dataset.poses.size() >= 20);
   double largest = 0;
-  for (std::size_t picture = 0; picture < 20; ++picture) {
-    const ViewDataset::Pose& object = dataset.poses[picture * dataset.poses.size() / 20];
+  for (std::size_t image = 0; image < 20; ++image) {
+    const ViewDataset::Pose& object = dataset.poses[image * dataset.poses.size() / 20];
     std::vector<CameraPose> poses;
     for (Index v = object.first_view; v < object.first_view + object.view_count; ++v)
       poses.push_back({static_cast<double>(dataset.views[static_cast<std::size_t>(v)].theta_deg),

@@ -37,8 +37,8 @@ TEST_CASE("camera files that cannot be used are named in one line") {
   CHECK(message(R"({"width": "a", )" + rest + "}") == name + "width is not a number");
   CHECK(message(R"({"width": 640.5, )" + rest + "}") == name + "width is 640.5, expected a number of pixels");
   CHECK(message(R"({"width": 0, )" + rest + "}") ==
-        name + "the picture has 0x480 pixels, expected a positive width and height");
-  CHECK(message(R"({"width": 300, )" + rest + "}") == name + "cx is 320, which is outside the picture of 300 pixels");
+        name + "the image has 0x480 pixels, expected a positive width and height");
+  CHECK(message(R"({"width": 300, )" + rest + "}") == name + "cx is 320, which is outside the image of 300 pixels");
   CHECK(message(R"({"width": 640, "f": 1, )" + rest + "}") ==
         name + "the key 'f' is not known; known: width, height, fx, fy, cx, cy, pose");
   CHECK(message("[]") == name + "is no mapping of keys to values, expected a camera");
@@ -102,7 +102,7 @@ TEST_CASE("the camera_info of ROS and the intrinsics of RealSense are read") {
   CHECK(intrinsics_in("width: 640\nheight: 480\nfx: 600\nfy: 601\ncx: 319.5\ncy: 239.5\n") == expected);
 }
 
-TEST_CASE("a camera_info with P alone is that of rectified pictures") {
+TEST_CASE("a camera_info with P alone is that of rectified images") {
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "P": [600, 0, 319.5, -30, 0, 601, 239.5, 0, 0, 0, 1, 0]})") ==
         "600 601 319.5 239.5 of 640x480");
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": [0, 0, 0, 0, 0, 0, 0, 0, 0]})") ==
@@ -111,7 +111,7 @@ TEST_CASE("a camera_info with P alone is that of rectified pictures") {
 
 TEST_CASE("a fisheye lens is refused, even if it has no coefficients") {
   CHECK_THAT(intrinsics_in(ros_json("[0, 0, 0, 0]", R"(, "distortion_model": "equidistant")")),
-             Catch::StartsWith("distortion_model: 'equidistant' is a fisheye lens; pictures must be rectified first"));
+             Catch::StartsWith("distortion_model: 'equidistant' is a fisheye lens; images must be rectified first"));
   CHECK_THAT(intrinsics_in(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 319.5, "ppy": 239.5,
                                "model": "Kannala Brandt4", "coeffs": [0, 0, 0, 0, 0]})"),
              Catch::StartsWith("model: 'Kannala Brandt4' is a fisheye lens"));
@@ -119,18 +119,18 @@ TEST_CASE("a fisheye lens is refused, even if it has no coefficients") {
         "600 601 319.5 239.5 of 640x480");
 }
 
-TEST_CASE("cameras with distortion are refused, and say that pictures must be rectified") {
+TEST_CASE("cameras with distortion are refused, and say that images must be rectified") {
   const std::string rectify =
-      "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no "
+      "; images must be rectified first (ROS: image_proc), and the camera of the rectified images given: no "
       "distortion";
   CHECK(intrinsics_in(ros_json("[0.1, 0, 0, 0, 0]")) == "D: the lens has distortion (0.1)" + rectify);
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "fx": 600, "fy": 601, "ppx": 319.5, "ppy": 239.5,
                           "coeffs": [0, 0, 0, 0, -0.05]})") == "coeffs: the lens has distortion (-0.05)" + rectify);
   CHECK(intrinsics_in(ros_json("[0]", R"(, "P": [500, 0, 319.5, 0, 0, 601, 239.5, 0, 0, 0, 1, 0])")) ==
-        "K and P are different cameras; leave out P if the pictures are as taken, or give its numbers as K if they are "
+        "K and P are different cameras; leave out P if the images are as taken, or give its numbers as K if they are "
         "rectified");
   CHECK(intrinsics_in(ros_json("[0]", R"(, "binning_x": 2)")) ==
-        "binning_x is 2; give the camera of the pictures as they are");
+        "binning_x is 2; give the camera of the images as they are");
   CHECK_THAT(intrinsics_in(ros_json("[0]", R"(, "Q": 2)")),
              Catch::StartsWith("the key 'Q' is not known; known: width, "));
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": [600, 0, 319.5]})") == "K has 3 numbers, expected 9");

@@ -107,7 +107,7 @@ TEST_CASE("depth files that cannot be read are named in one line") {
   CHECK(refusal(folder.path() / "d") == name + "is a PNG of another kind, expected 16-bit grey, depth in millimetres");
   write_depth_png(folder.path() / "d", {1, 2, {1, 2}});
   const std::string png = file_contents(folder.path() / "d");
-  CHECK_THAT(message(png.substr(0, png.size() - 20)), Catch::Contains("is a damaged or incomplete PNG picture"));
+  CHECK_THAT(message(png.substr(0, png.size() - 20)), Catch::Contains("is a damaged or incomplete PNG image"));
 }
 
 TEST_CASE("depth is read from every array that NumPy writes for it") {

@@ -16,7 +16,7 @@ using namespace svnet::io;
 namespace fs = std::filesystem;
 
 namespace {
-const fs::path kPictures = SVNET_FIXTURES "/pictures";
+const fs::path kImages = SVNET_FIXTURES "/pictures";
 
 Image gradient(Index height, Index width) {
   Image image{height, width, {}};
@@ -26,12 +26,12 @@ Image gradient(Index height, Index width) {
 }  // namespace
 
 TEST_CASE("every kind of image has Pillow's pixels") {
-  std::istringstream expected(file_contents(kPictures / "expected.txt"));
+  std::istringstream expected(file_contents(kImages / "expected.txt"));
   int cases = 0;
   std::string name, sha256;
   for (Index height, width; expected >> name >> height >> width >> sha256; ++cases) {
     CAPTURE(name);
-    const Image image = read_image(kPictures / name);
+    const Image image = read_image(kImages / name);
     CHECK(image.height == height);
     CHECK(image.width == width);
     CHECK(Sha256().update(image.rgb.data(), image.rgb.size()).hex() == sha256);
@@ -41,16 +41,16 @@ TEST_CASE("every kind of image has Pillow's pixels") {
 
 TEST_CASE("the contents, not the name, decide the format of an image") {
   const TemporaryFolder folder;
-  const fs::path path = folder.write("45_90.png", file_contents(kPictures / "rgb.jpg"));
-  CHECK(read_image(path).rgb == read_image(kPictures / "rgb.jpg").rgb);
+  const fs::path path = folder.write("45_90.png", file_contents(kImages / "rgb.jpg"));
+  CHECK(read_image(path).rgb == read_image(kImages / "rgb.jpg").rgb);
 }
 
 TEST_CASE("bytes after the end of an image do no harm") {
   const TemporaryFolder folder;
   for (const char* name : {"rgb.png", "rgb.jpg", "lossless.webp"}) {
     CAPTURE(name);
-    const fs::path path = folder.write(name, file_contents(kPictures / name) + "more");
-    CHECK(read_image(path).rgb == read_image(kPictures / name).rgb);
+    const fs::path path = folder.write(name, file_contents(kImages / name) + "more");
+    CHECK(read_image(path).rgb == read_image(kImages / name).rgb);
   }
 }
 
@@ -85,8 +85,8 @@ TEST_CASE("an EXIF orientation is read from JPEG, PNG and WebP, and ignored unle
                                           {"rgb.png", 1},
                                           {"lossy.webp", 1}}) {
     CAPTURE(name);
-    CHECK(read_exif_orientation(kPictures / name) == orientation);
-    const Image stored = read_image(kPictures / name), turned = read_image(kPictures / name, ExifOrientation::obey);
+    CHECK(read_exif_orientation(kImages / name) == orientation);
+    const Image stored = read_image(kImages / name), turned = read_image(kImages / name, ExifOrientation::obey);
     CHECK(turned.rgb == oriented(stored, orientation).rgb);
     CHECK(turned.height == (orientation == 1 ? stored.height : stored.width));
   }
@@ -94,7 +94,7 @@ TEST_CASE("an EXIF orientation is read from JPEG, PNG and WebP, and ignored unle
 
 TEST_CASE("damaged EXIF data count as none") {
   const TemporaryFolder folder;
-  const std::string jpeg = file_contents(kPictures / "turned.jpg");
+  const std::string jpeg = file_contents(kImages / "turned.jpg");
   const auto exif = jpeg.find("Exif");
   REQUIRE(exif != std::string::npos);
   for (std::size_t i = 0; i < 40; ++i)
@@ -128,8 +128,8 @@ TEST_CASE("an image comes through a pipe") {
   const TemporaryFolder folder;
   const fs::path pipe = folder.path() / "pipe";
   REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
-  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << file_contents(kPictures / "rgb.jpg"); });
+  std::thread writer([&] { std::ofstream(pipe, std::ios::binary) << file_contents(kImages / "rgb.jpg"); });
   const Image image = read_image(pipe);
   writer.join();
-  CHECK(image.rgb == read_image(kPictures / "rgb.jpg").rgb);
+  CHECK(image.rgb == read_image(kImages / "rgb.jpg").rgb);
 }

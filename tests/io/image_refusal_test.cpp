@@ -14,7 +14,7 @@ using namespace svnet::io;
 namespace fs = std::filesystem;
 
 namespace {
-const fs::path kPictures = SVNET_FIXTURES "/pictures";
+const fs::path kImages = SVNET_FIXTURES "/pictures";
 
 /// The error message of read_image without the path at its start; "" if it succeeds.
 std::string refusal(const fs::path& path) {
@@ -52,20 +52,20 @@ class CapturedStderr {
 TEST_CASE("files that are not images are refused with a reason") {
   const TemporaryFolder folder;
   CHECK(refusal(folder.path() / "none.png") == "no such file");
-  CHECK(refusal(folder.path()) == "is a folder, expected a picture (PNG, JPEG or WebP)");
-  CHECK(refusal("/dev/null") == "is not a regular file, expected a picture");
-  CHECK(refusal(folder.write("empty.png", "")) == "is empty, expected a picture (PNG, JPEG or WebP)");
-  CHECK(refusal(folder.write("notes.png", "not a picture\n")) ==
-        "is not a PNG, JPEG or WebP picture, whatever its name says");
+  CHECK(refusal(folder.path()) == "is a folder, expected an image (PNG, JPEG or WebP)");
+  CHECK(refusal("/dev/null") == "is not a regular file, expected an image");
+  CHECK(refusal(folder.write("empty.png", "")) == "is empty, expected an image (PNG, JPEG or WebP)");
+  CHECK(refusal(folder.write("notes.png", "not an image\n")) ==
+        "is not a PNG, JPEG or WebP image, whatever its name says");
   CHECK(refusal(folder.write("lfs.png", "version https://git-lfs.github.com/spec/v1\noid sha256:4d7a\n")) ==
-        "is not a PNG, JPEG or WebP picture, but a Git LFS pointer; get the file itself by 'git lfs pull'");
+        "is not a PNG, JPEG or WebP image, but a Git LFS pointer; get the file itself by 'git lfs pull'");
   CHECK_THAT(refusal(folder.write("page.jpg", "<!DOCTYPE html><html>")),
-             Catch::StartsWith("is not a PNG, JPEG or WebP picture, but a web page (HTML), as a failed download"));
+             Catch::StartsWith("is not a PNG, JPEG or WebP image, but a web page (HTML), as a failed download"));
   CHECK_THAT(refusal(folder.write("phone.jpg", std::string("\0\0\0\x18"
                                                            "ftypheic\0\0\0\0",
                                                            16))),
-             Catch::Contains("but an HEIC or AVIF picture"));
-  CHECK(refusal(kPictures / "animated.webp") == "is an animated WebP, expected a single picture");
+             Catch::Contains("but an HEIC or AVIF image"));
+  CHECK(refusal(kImages / "animated.webp") == "is an animated WebP, expected a single image");
 }
 
 TEST_CASE("an image that may not be read is refused with the system's reason") {
@@ -85,7 +85,7 @@ TEST_CASE("an image truncated anywhere is refused, and nothing is printed") {
   for (const char* name : {"rgb.png", "palette.png", "rgb16.png", "rgb.jpg", "progressive.jpg", "grey.jpg",
                            "lossy.webp", "lossless.webp", "alpha.webp"}) {
     CAPTURE(name);
-    const std::string whole = file_contents(kPictures / name);
+    const std::string whole = file_contents(kImages / name);
     std::size_t read = 0;
     {
       const CapturedStderr captured(noise);
@@ -100,33 +100,33 @@ TEST_CASE("an image truncated anywhere is refused, and nothing is printed") {
 TEST_CASE("a truncated image is named as truncated") {
   const TemporaryFolder folder;
   const auto cut = [&](const char* name, std::size_t bytes) {
-    const std::string whole = file_contents(kPictures / name);
+    const std::string whole = file_contents(kImages / name);
     return refusal(folder.write(name, std::string_view(whole).substr(0, whole.size() - bytes)));
   };
-  CHECK(cut("rgb.jpg", 2) == "is a damaged or incomplete JPEG picture (Premature end of JPEG file); replace the file");
-  CHECK(cut("rgb.png", 5) == "is a damaged or incomplete PNG picture (the file ends too early); replace the file");
-  CHECK(cut("lossy.webp", 5) == "is a damaged or incomplete WebP picture (it has 195 bytes of 200); replace the file");
+  CHECK(cut("rgb.jpg", 2) == "is a damaged or incomplete JPEG image (Premature end of JPEG file); replace the file");
+  CHECK(cut("rgb.png", 5) == "is a damaged or incomplete PNG image (the file ends too early); replace the file");
+  CHECK(cut("lossy.webp", 5) == "is a damaged or incomplete WebP image (it has 195 bytes of 200); replace the file");
 }
 
 TEST_CASE("a PNG with any changed byte of its pixels is refused") {
   const TemporaryFolder folder;
-  const std::string whole = file_contents(kPictures / "rgb.png");
+  const std::string whole = file_contents(kImages / "rgb.png");
   const std::size_t start = whole.find("IDAT"), end = whole.find("IEND") - 4;
   REQUIRE(end < whole.size());
   for (std::size_t i = start; i < end; ++i) {
     std::string damaged = whole;
     damaged[i] ^= 0x20;
     CAPTURE(i);
-    CHECK_THAT(refusal(folder.write("a.png", damaged)), Catch::StartsWith("is a damaged or incomplete PNG picture ("));
+    CHECK_THAT(refusal(folder.write("a.png", damaged)), Catch::StartsWith("is a damaged or incomplete PNG image ("));
   }
 }
 
 TEST_CASE("a JPEG whose entropy-coded data is broken is refused") {
   const TemporaryFolder folder;
-  const std::string whole = file_contents(kPictures / "rgb.jpg");
+  const std::string whole = file_contents(kImages / "rgb.jpg");
   const std::string joined_ends = whole.substr(0, whole.size() - 60) + whole.substr(whole.size() - 2);
   CHECK(refusal(folder.write("a.jpg", joined_ends)) ==
-        "is a damaged or incomplete JPEG picture (Corrupt JPEG data: premature end of data segment); replace the file");
+        "is a damaged or incomplete JPEG image (Corrupt JPEG data: premature end of data segment); replace the file");
 }
 
 TEST_CASE("an image too large is refused by its header alone") {
@@ -137,7 +137,7 @@ TEST_CASE("an image too large is refused by its header alone") {
       45);
   CHECK(refusal(folder.write("a.png", png)) ==
         "has 20000x20000 pixels, more than the 64 megapixels that are read; make it smaller");
-  std::string jpeg = file_contents(kPictures / "grey.jpg");
+  std::string jpeg = file_contents(kImages / "grey.jpg");
   const std::size_t frame = jpeg.find("\xff\xc0");
   REQUIRE(frame != std::string::npos);
   jpeg.replace(frame + 5, 4, "\x4e\x20\x4e\x20");

@@ -75,9 +75,9 @@ TEST_CASE("a model file says the number of orientations of the top image if it i
   CHECK(written(1, 96) == 1);
   CHECK_FALSE(TensorFile::read(path, "model").get<nlohmann::json>("head").contains("orientations"));
   CHECK_THROWS_WITH(written(4, 96), path.string() + ": there are 4 orientations, expected 1 or 8");
-  CHECK_THROWS_WITH(written(8, 64), path.string() + ": pictures of 64x96 cannot be turned; only square ones can");
+  CHECK_THROWS_WITH(written(8, 64), path.string() + ": images of 64x96 cannot be turned; only square ones can");
   CHECK_THROWS_WITH(written(1, 64),
-                    path.string() + ": the backbone does not take pictures of 64x96, as preprocessing makes them");
+                    path.string() + ": the backbone does not take images of 64x96, as preprocessing makes them");
 }
 
 TEST_CASE("every kind of layer survives JSON") {

@@ -84,7 +84,7 @@ TEST_CASE("the fingerprint changes with every path and content, and with nothing
   const TemporaryFolder a, b;
   for (const TemporaryFolder* folder : {&a, &b})
     for (int theta = 0; theta < 91; ++theta)
-      folder->write("mug/1/1/90_" + std::to_string(theta) + ".png", "picture " + std::to_string(theta));
+      folder->write("mug/1/1/90_" + std::to_string(theta) + ".png", "image " + std::to_string(theta));
   Parallel one(1), three(3);
   const auto print = [&](const TemporaryFolder& folder, Parallel& parallel) {
     return fingerprint(read_view_dataset(folder.path()), parallel);
@@ -95,11 +95,11 @@ TEST_CASE("the fingerprint changes with every path and content, and with nothing
   b.write("manifest.json", "{}");
   CHECK(print(b, three) == first);
   std::set<std::string> prints{first};
-  b.write("mug/1/1/90_7.png", "picture 8");
+  b.write("mug/1/1/90_7.png", "image 8");
   prints.insert(print(b, three));
-  b.write("mug/1/1/90_8.png", "picture 7");
+  b.write("mug/1/1/90_8.png", "image 7");
   prints.insert(print(b, three));
-  b.write("mug/1/1/90_7.png", "picture 7"), b.write("mug/1/1/90_8.png", "picture 8");
+  b.write("mug/1/1/90_7.png", "image 7"), b.write("mug/1/1/90_8.png", "image 8");
   CHECK(print(b, three) == first);
   fs::rename(b.path() / "mug/1/1/90_7.png", b.path() / "mug/1/1/89_7.png");
   prints.insert(print(b, three));
@@ -126,7 +126,7 @@ TEST_CASE("ETH-80 is 8 categories of 10 objects of 41 views") {
   CHECK(dataset.objects[9].name == "10");
 }
 
-TEST_CASE("what systems leave beside pictures is ignored and counted") {
+TEST_CASE("what systems leave beside images is ignored and counted") {
   const TemporaryFolder folder;
   const std::vector<std::string> left{
       ".DS_Store",           "@eaDir/x",          "Thumbs.db",       "desktop.ini",         "lost+found/x",
@@ -139,7 +139,7 @@ TEST_CASE("what systems leave beside pictures is ignored and counted") {
   CHECK(dataset.ignored.size() == left.size());
   const auto notes = dataset_notes(dataset, Parallel::shared());
   REQUIRE(notes.size() == 1);
-  CHECK(notes[0].starts_with(folder.path().string() + ": 13 files or folders that are no pictures of a category are "
+  CHECK(notes[0].starts_with(folder.path().string() + ": 13 files or folders that are no images of a category are "
                                                       "ignored: "));
   CHECK(std::count(notes[0].begin(), notes[0].end(), '\n') == 0);
 }
@@ -147,8 +147,8 @@ TEST_CASE("what systems leave beside pictures is ignored and counted") {
 TEST_CASE("names of categories are the same composed (NFC) and decomposed (NFD)") {
   const std::string composed = "caf\xc3\xa9", decomposed = "cafe\xcc\x81";
   const auto dataset_with = [](const TemporaryFolder& folder, const std::string& name) {
-    folder.write(name + "/1/a/90_90.png", "picture");
-    folder.write("cafz/1/a/90_90.png", "picture");
+    folder.write(name + "/1/a/90_90.png", "image");
+    folder.write("cafz/1/a/90_90.png", "image");
     return read_view_dataset(folder.path());
   };
   const TemporaryFolder mac, linux_folder, both;
@@ -172,7 +172,7 @@ TEST_CASE("an EXIF orientation is reported if it is ignored, and obeying it is a
   const auto notes = dataset_notes(ignored, Parallel::shared());
   REQUIRE(notes.size() == 1);
   CHECK(notes[0] ==
-        "2 of 3 pictures have an EXIF orientation other than 1, which is ignored (mug/1/a/45_0.jpg: 6); "
+        "2 of 3 images have an EXIF orientation other than 1, which is ignored (mug/1/a/45_0.jpg: 6); "
         "exif_orientation obey turns them as viewers do");
   CHECK(dataset_notes(obeyed, Parallel::shared()).empty());
   CHECK(fingerprint(ignored, Parallel::shared()) != fingerprint(obeyed, Parallel::shared()));

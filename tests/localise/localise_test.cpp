@@ -37,19 +37,19 @@ Setting plain_setting() {
 }
 
 /// The overview of `mesh` at (x, y) on the table, or of the table alone.
-RgbdPicture picture(const Mesh* mesh, double x_m, double y_m, float exposure, std::uint32_t number) {
+RgbdImage image(const Mesh* mesh, double x_m, double y_m, float exposure, std::uint32_t number) {
   Eigen::Isometry3d place(Eigen::Translation3d(x_m, y_m, 0.02));
   const Scene scene(mesh, place, plain_setting());
-  return sensor_picture(scene.shoot(overview_camera(), overview_camera_to_world(), {5, number}, 2), {5, number},
-                        exposure);
+  return sensor_image(scene.shoot(overview_camera(), overview_camera_to_world(), {5, number}, 2), {5, number},
+                      exposure);
 }
 
-LocalisedObject find(const RgbdPicture& before, const RgbdPicture& after, const LocaliseOptions& options = {}) {
+LocalisedObject find(const RgbdImage& before, const RgbdImage& after, const LocaliseOptions& options = {}) {
   return localise::locate(overview_camera(), overview_camera_to_world(), {before.rgb, before.depth},
                           {after.rgb, after.depth}, options);
 }
 
-std::string refusal(const RgbdPicture& before, const RgbdPicture& after) {
+std::string refusal(const RgbdImage& before, const RgbdImage& after) {
   try {
     find(before, after);
   } catch (const std::exception& error) {
@@ -62,9 +62,9 @@ std::string refusal(const RgbdPicture& before, const RgbdPicture& after) {
 
 TEST_CASE("a block is found with its place and size, after a small change of the light") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1);
   for (const float exposure : {0.95f, 1.0f, 1.05f}) {
-    const LocalisedObject object = find(before, picture(&mesh, 0.05, -0.03, exposure, 2), {.keep_steps = true});
+    const LocalisedObject object = find(before, image(&mesh, 0.05, -0.03, exposure, 2), {.keep_steps = true});
     INFO("exposure " << exposure);
     CHECK(object.centre_m.x() == Approx(0.05).margin(0.002));
     CHECK(object.centre_m.y() == Approx(-0.03).margin(0.002));
@@ -81,8 +81,8 @@ TEST_CASE("a block is found with its place and size, after a small change of the
 
 TEST_CASE("pixels without depth are tolerated") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
-  RgbdPicture after = picture(&mesh, 0, 0, 1, 2);
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1);
+  RgbdImage after = image(&mesh, 0, 0, 1, 2);
   for (std::size_t i = 0; i < after.depth.metres.size(); i += 3) after.depth.metres[i] = 0;
   for (std::size_t i = 1; i < after.depth.metres.size(); i += 7) after.depth.metres[i] = std::nanf("");
   const LocalisedObject object = find(before, after);
@@ -102,13 +102,13 @@ TEST_CASE("a knife on its edge is found up to its tip, although its blade looks 
 
 TEST_CASE("nothing, a part of an object, and several objects are refused") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
-  CHECK_THAT(refusal(before, picture(nullptr, 0, 0, 1.03f, 3)), Catch::StartsWith("[localise] nothing is found"));
-  CHECK_THAT(refusal(before, picture(&mesh, 0.5, 0, 1, 4)),
-             Catch::StartsWith("[localise] the object is cut off by the border of the picture"));
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1);
+  CHECK_THAT(refusal(before, image(nullptr, 0, 0, 1.03f, 3)), Catch::StartsWith("[localise] nothing is found"));
+  CHECK_THAT(refusal(before, image(&mesh, 0.5, 0, 1, 4)),
+             Catch::StartsWith("[localise] the object is cut off by the border of the image"));
   // Two images put together, one half from each.
-  RgbdPicture two = picture(&mesh, -0.2, 0, 1, 5);
-  const RgbdPicture other = picture(&mesh, 0.2, 0, 1, 6);
+  RgbdImage two = image(&mesh, -0.2, 0, 1, 5);
+  const RgbdImage other = image(&mesh, 0.2, 0, 1, 6);
   for (Index y = 0; y < 480; ++y) {
     // World x points to the left in this overview.
     std::copy_n(other.rgb.rgb.begin() + 3 * 640 * y, 3 * 320, two.rgb.rgb.begin() + 3 * 640 * y);
@@ -144,8 +144,8 @@ TEST_CASE("the soft enclosing circle is the smallest one for certain points, and
 
 TEST_CASE("exchanged images and a camera upside down are refused") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0.05, 0, 1, 4);
-  CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the pictures of the table and of the object "
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1), after = image(&mesh, 0.05, 0, 1, 4);
+  CHECK_THAT(refusal(after, before), Catch::Contains("below the table; are the images of the table and of the object "
                                                      "exchanged?"));
   CHECK_THROWS_WITH(localise::locate(overview_camera(), Eigen::Isometry3d::Identity(), {before.rgb, before.depth},
                                      {after.rgb, after.depth}),
@@ -153,13 +153,13 @@ TEST_CASE("exchanged images and a camera upside down are refused") {
 }
 
 TEST_CASE("images of another size than the camera's are refused") {
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1);
-  RgbdPicture small = before;
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1);
+  RgbdImage small = before;
   small.rgb = {2, 2, std::vector<std::uint8_t>(12)};
-  CHECK(refusal(before, small) == "[localise] the current picture has 2x2 pixels, the camera 640x480");
+  CHECK(refusal(before, small) == "[localise] the current image has 2x2 pixels, the camera 640x480");
   small = before;
   small.depth = {2, 3, std::vector<float>(6)};
-  CHECK(refusal(small, before) == "[localise] the background depth picture has 3x2 pixels, the camera 640x480");
+  CHECK(refusal(small, before) == "[localise] the background depth image has 3x2 pixels, the camera 640x480");
 }
 
 namespace {
@@ -248,13 +248,13 @@ TEST_CASE("localisation of 200 objects, measured", "[.measure]") {
 
 namespace {
 
-RgbdPicture scaled_depth(RgbdPicture picture, float factor, double unit_m) {
-  for (float& z : picture.depth.metres) z *= factor;
-  picture.depth.unit_m = unit_m;
-  return picture;
+RgbdImage scaled_depth(RgbdImage image, float factor, double unit_m) {
+  for (float& z : image.depth.metres) z *= factor;
+  image.depth.unit_m = unit_m;
+  return image;
 }
 
-std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdPicture& before, const RgbdPicture& after,
+std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdImage& before, const RgbdImage& after,
                          const LocaliseOptions& options = {}) {
   try {
     localise::locate(overview_camera(), camera_to_world, {before.rgb, before.depth}, {after.rgb, after.depth}, options);
@@ -266,7 +266,7 @@ std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdPic
 
 }  // namespace
 
-TEST_CASE("exchanged pictures are refused for objects of every height") {
+TEST_CASE("exchanged images are refused for objects of every height") {
   for (const char* name : {"mug", "bowl", "comb", "fork", "key", "knife", "pen", "plate", "scissors", "spoon"}) {
     INFO(name);
     const Mesh mesh = catalogue_object(name, 1, 3);
@@ -283,14 +283,14 @@ TEST_CASE("an object without depth is refused, even if the ground of a mug has s
   const Mesh mesh = catalogue_object("mug", 1, 3);
   const PosedObject posed = pose_object(mesh, 1, 3, 5);
   const Overview overview = capture_overview(posed, 3, 5);
-  RgbdPicture walls = overview.current, all = overview.current;
+  RgbdImage walls = overview.current, all = overview.current;
   for (std::size_t i = 0; i < walls.depth.metres.size(); ++i) {
     const float rise = overview.background.depth.metres[i] - walls.depth.metres[i];
     if (rise > 0.009f) walls.depth.metres[i] = 0;
     if (rise > 0.002f) all.depth.metres[i] = 0;
   }
   const auto pattern = Catch::Matches(
-      "\\[localise\\] the current depth picture has depth at [0-9]+ of the .*[0-9]+ pixels.*, at least [0-9]+ are "
+      "\\[localise\\] the current depth image has depth at [0-9]+ of the .*[0-9]+ pixels.*, at least [0-9]+ are "
       "needed; "
       "cameras measure none of black, shiny or transparent objects: cover it, or give its place and size");
   CHECK_THAT(refusal(overview.background, walls), pattern || Catch::Contains("of the object's"));
@@ -299,7 +299,7 @@ TEST_CASE("an object without depth is refused, even if the ground of a mug has s
 
 TEST_CASE("a camera that does not look down is refused however its quaternion is rounded") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0, 0, 1, 2);
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1), after = image(&mesh, 0, 0, 1, 2);
   for (const double half : {std::sqrt(0.5), 0.7071, 0.707, 0.70711, 0.7072, -0.7071})
     for (const double other : {std::sqrt(0.5), 0.7071, 0.70710678}) {
       Eigen::Isometry3d pose(Eigen::Translation3d(0, 0, 1) *
@@ -317,7 +317,7 @@ TEST_CASE("a camera that does not look down is refused however its quaternion is
 
 TEST_CASE("depth in another unit is suspected by name") {
   const Mesh mesh = block();
-  const RgbdPicture before = picture(nullptr, 0, 0, 1, 1), after = picture(&mesh, 0, 0, 1, 2);
+  const RgbdImage before = image(nullptr, 0, 0, 1, 1), after = image(&mesh, 0, 0, 1, 2);
   const Eigen::Isometry3d pose = overview_camera_to_world();
   const struct {
     float factor;
@@ -337,7 +337,7 @@ TEST_CASE("depth in another unit is suspected by name") {
   const Eigen::Isometry3d lifted = Eigen::Translation3d(0, 0, 40) * pose;
   CHECK_THAT(refusal_from(lifted, scaled_depth(before, 100, 1), scaled_depth(after, 100, 1)),
              Catch::Contains("is the unit of depth (m) wrong?") && Catch::Contains("--depth-unit"));
-  RgbdPicture exact_before = before, exact_after = after;
+  RgbdImage exact_before = before, exact_after = after;
   for (std::size_t i = 0; i < exact_after.depth.metres.size(); ++i) {
     const bool is_object = before.depth.metres[i] - after.depth.metres[i] > 0.02f;
     exact_before.depth.metres[i] = 1;

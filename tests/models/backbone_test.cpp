@@ -33,7 +33,7 @@ Parameters drawn_parameters(const Graph& graph) {
   return parameters;
 }
 
-Tensor pictures(Index count, Index size) {
+Tensor images(Index count, Index size) {
   Tensor x = Tensor::empty({count, size, size, 3});
   RandomStream random(1, Stream::weights);
   for (Index i = 0; i < x.size(); ++i) x.data<float>()[i] = static_cast<float>(2 * random.uniform() - 1);
@@ -67,7 +67,7 @@ TEST_CASE("an unknown backbone or layer is named with its nearest neighbour") {
 TEST_CASE("folding batch norms and activations changes only rounding") {
   const Graph graph = backbone_kind("tiny_xception").graph(64, false);
   const Parameters parameters = drawn_parameters(graph);
-  const Tensor x = pictures(2, 64);
+  const Tensor x = images(2, 64);
   for (NodeId output = 1; output <= graph.output(); ++output) {
     const FoldedGraph fast = folded(graph, parameters, output);
     const Tensor actual = run_inference(fast.graph, fast.parameters, {x}, {fast.graph.output()})[0];
@@ -84,7 +84,7 @@ TEST_CASE("compiled networks agree with plain operations, at every layer") {
     const Index size = separable ? 75 : 46;
     const Graph graph = kind.graph(size, false);
     const Parameters parameters = drawn_parameters(graph);
-    const Tensor x = pictures(2, size);
+    const Tensor x = images(2, size);
     for (NodeId output = 1; output <= graph.output(); output += small ? 1 : 7) {
       const Inference compiled(graph, parameters, output);
       const Tensor expected = run_inference(graph, parameters, {x}, {output})[0];

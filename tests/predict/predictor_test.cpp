@@ -49,7 +49,7 @@ TEST_CASE("a predictor gives the features and scores of its model, for any numbe
     const auto path = folder.path() / "model.safetensors";
     write_model(path, model);
     const Predictor predictor(path);
-    const Tensor features = predictor.embed(small_picture()), expected = plain_features(model, small_picture());
+    const Tensor features = predictor.embed(small_image()), expected = plain_features(model, small_image());
     REQUIRE(features.shape() == Shape{1, predictor.feature_count()});
     REQUIRE(features.size() == expected.size());
     for (Index i = 0; i < features.size(); ++i)
@@ -72,11 +72,11 @@ TEST_CASE("a model of all orientations gives their mean, in whichever orientatio
   CHECK(predictor.feature_count() == kSymmetries * as_taken.feature_count());
 
   // The image has the network's size, so that turning and resizing commute.
-  const Image picture = small_picture(96, 96);
-  const std::vector<float> pixels(picture.rgb.begin(), picture.rgb.end());
+  const Image upright = small_image(96, 96);
+  const std::vector<float> pixels(upright.rgb.begin(), upright.rgb.end());
   std::vector<float> turned(pixels.size());
   const std::vector<CameraPose> poses = many_poses();
-  const std::vector<float> scores = predictor.scores(predictor.embed(picture), poses);
+  const std::vector<float> scores = predictor.scores(predictor.embed(upright), poses);
   std::vector<double> mean(poses.size(), 0);
   for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
     apply_symmetry(symmetry, 96, pixels.data(), turned.data());
@@ -91,12 +91,12 @@ TEST_CASE("a model of all orientations gives their mean, in whichever orientatio
     }
   }
   for (std::size_t i = 0; i < poses.size(); ++i) CHECK(scores[i] == Approx(mean[i]).margin(1e-5));
-  CHECK(predictor.scores(predictor.embed(picture), std::span(poses).first(1))[0] == scores[0]);
+  CHECK(predictor.scores(predictor.embed(upright), std::span(poses).first(1))[0] == scores[0]);
 }
 
 TEST_CASE("poses a full turn apart have the same score") {
   const Predictor predictor(small_model());
-  const Tensor features = predictor.embed(small_picture());
+  const Tensor features = predictor.embed(small_image());
   const std::vector<CameraPose> poses{{315, 45}, {-45, 45}, {675, 45},  {0, 60},
                                       {360, 60}, {720, 60}, {-360, 60}, {-1e-20, 60}};
   const std::vector<float> scores = predictor.scores(features, poses);
@@ -114,7 +114,7 @@ TEST_CASE("in a tie the best view is the first one") {
 
 TEST_CASE("poses out of range are refused") {
   const Predictor predictor(small_model());
-  const Tensor features = predictor.embed(small_picture());
+  const Tensor features = predictor.embed(small_image());
   const double nan = std::nan(""), infinity = std::numeric_limits<double>::infinity();
   const auto message = [&](const CameraPose& pose) {
     try {
@@ -155,7 +155,7 @@ TEST_CASE("features and images that do not fit are refused") {
 
 TEST_CASE("several threads may use one predictor") {
   const Predictor predictor(small_model());
-  const auto answer = [&] { return predictor.scores(predictor.embed(small_picture()), paper_grid()); };
+  const auto answer = [&] { return predictor.scores(predictor.embed(small_image()), paper_grid()); };
   const std::vector<float> expected = answer();
   std::vector<std::vector<float>> answers(4);
   std::vector<std::thread> threads;
@@ -166,7 +166,7 @@ TEST_CASE("several threads may use one predictor") {
 
 TEST_CASE("angles that are out of range by rounding alone score as the bound") {
   const Predictor predictor(small_model());
-  const auto embedded = predictor.embed(small_picture());
+  const auto embedded = predictor.embed(small_image());
   const std::vector<CameraPose> exact{{0, 90}, {720, 0}}, rounded{{0, 90.00000250447816}, {720.00009, -0.0001}};
   CHECK(predictor.scores(embedded, rounded) == predictor.scores(embedded, exact));
   CHECK_THROWS_WITH(predictor.scores(embedded, std::vector<CameraPose>{{0, 90.0002}}),

@@ -55,9 +55,9 @@ class GlbWriter {
     return json["accessors"].size() - 1;
   }
 
-  /// The index of a texture whose picture is this file.
-  std::size_t texture(const std::string& picture, const char* mime = "image/png") {
-    json["images"].push_back({{"bufferView", view(picture)}, {"mimeType", mime}});
+  /// The index of a texture whose image is this file.
+  std::size_t texture(const std::string& image, const char* mime = "image/png") {
+    json["images"].push_back({{"bufferView", view(image)}, {"mimeType", mime}});
     json["textures"].push_back({{"source", json["images"].size() - 1}});
     return json["textures"].size() - 1;
   }

@@ -42,14 +42,14 @@ std::string glb_chunk(const char* kind, std::string contents, char filler) {
 
 /// A binary glTF file (https://registry.khronos.org/glTF/specs/2.0/glTF-2.0.html): a triangle whose material takes its
 /// colour from `image`, a JSON object; `image` is buffer view 3.
-std::string glb_of(const std::string& image, const std::string& picture) {
+std::string glb_of(const std::string& image, const std::string& file) {
   const std::string points = bytes<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}), uv = bytes<float>({0, 0, 1, 0, 0, 1}),
                     corners = bytes<std::uint16_t>({0, 1, 2, 0});
   const auto view = [](std::size_t offset, std::size_t length) {
     return R"({"buffer": 0, "byteOffset": )" + std::to_string(offset) + R"(, "byteLength": )" + std::to_string(length) +
            "}";
   };
-  const std::string binary = points + uv + corners + picture;
+  const std::string binary = points + uv + corners + file;
   const std::string json =
       R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
     "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "indices": 2, "material": 0}]}],
@@ -61,15 +61,15 @@ std::string glb_of(const std::string& image, const std::string& picture) {
       {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"},
       {"bufferView": 2, "componentType": 5123, "count": 3, "type": "SCALAR"}],
     "bufferViews": [)" +
-      view(0, 36) + "," + view(36, 24) + "," + view(60, 6) + "," + view(68, picture.size()) +
+      view(0, 36) + "," + view(36, 24) + "," + view(60, 6) + "," + view(68, file.size()) +
       R"(], "buffers": [{"byteLength": )" + std::to_string(binary.size()) + "}]}";
   const std::string chunks = glb_chunk("JSON", json, ' ') + glb_chunk(std::string("BIN\0", 4).c_str(), binary, '\0');
   return "glTF" + bytes<std::uint32_t>({2, static_cast<std::uint32_t>(12 + chunks.size())}) + chunks;
 }
 
 /// The image is embedded.
-std::string glb(const std::string& picture, const std::string& mime_type) {
-  return glb_of(R"({"bufferView": 3, "mimeType": ")" + mime_type + R"("})", picture);
+std::string glb(const std::string& image, const std::string& mime_type) {
+  return glb_of(R"({"bufferView": 3, "mimeType": ")" + mime_type + R"("})", image);
 }
 
 /// The PNG file of an image with a red pixel above a green one.
@@ -100,9 +100,9 @@ TEST_CASE("meshes are read with their unit, colours and textures") {
   CHECK(mesh.normals[0][0].isApprox(Vec3(0, 0, 1)));
   const Material& material = mesh.materials[static_cast<std::size_t>(mesh.triangles[0].material)];
   CHECK(material.colour.isApprox(Vec3(0.25f, 0.5f, 0.75f)));
-  CHECK(material.texture == Texture::picture);
-  REQUIRE(mesh.pictures.size() == 1);
-  CHECK(mesh.pictures[0].width == 2);
+  CHECK(material.texture == Texture::image);
+  REQUIRE(mesh.images.size() == 1);
+  CHECK(mesh.images[0].width == 2);
   REQUIRE(mesh.uv.size() == 2);
   CHECK(mesh.uv[0][1].x() == Approx(1));
 
@@ -139,7 +139,7 @@ TEST_CASE("the name of a GLB's texture is an encoded URI") {
   const TemporaryFolder folder;
   small_png(folder);
   std::filesystem::rename(folder.path() / "small.png", folder.path() / "my paint%.png");
-  CHECK(read_mesh(folder.write("a.glb", glb_of(R"({"uri": "my%20paint%25.png"})", "unused"))).pictures.size() == 1);
+  CHECK(read_mesh(folder.write("a.glb", glb_of(R"({"uri": "my%20paint%25.png"})", "unused"))).images.size() == 1);
 }
 
 TEST_CASE("meshes that cannot be read are named in one line") {
@@ -158,8 +158,8 @@ TEST_CASE("meshes that cannot be read are named in one line") {
   folder.write("square.mtl", "newmtl paint\nmap_Kd ../../etc/paint.png\n");
   CHECK_THAT(refusal(path), Catch::StartsWith(in("square.obj") + ": texture '../../etc/paint.png' lies outside"));
   folder.write("square.mtl", "newmtl paint\nmap_Kd paint.png\n");
-  folder.write("paint.png", "no picture");
-  CHECK_THAT(refusal(path), Catch::StartsWith(in("square.obj") + ": texture " + in("paint.png") + ": is no picture"));
+  folder.write("paint.png", "no image");
+  CHECK_THAT(refusal(path), Catch::StartsWith(in("square.obj") + ": texture " + in("paint.png") + ": is no image"));
   const std::string text = kPly;
   CHECK_THAT(refusal(folder.write("f.ply", text.substr(0, text.find("1 0 0")) + "nan 0 0\n0 1 0\n3 0 1 2\n")),
              Catch::StartsWith(in("f.ply") + ": "));
@@ -170,14 +170,14 @@ TEST_CASE("an image inside a GLB is its texture, the right way up") {
   const Mesh mesh = read_mesh(folder.write("a.glb", glb(small_png(folder), "image/png")));
   REQUIRE(mesh.triangles.size() == 1);
   const Material& material = mesh.materials[static_cast<std::size_t>(mesh.triangles[0].material)];
-  CHECK(material.texture == Texture::picture);
-  REQUIRE(mesh.pictures.size() == 1);
-  CHECK(mesh.pictures[0].height == 2);
+  CHECK(material.texture == Texture::image);
+  REQUIRE(mesh.images.size() == 1);
+  CHECK(mesh.images[0].height == 2);
   // glTF's v points downwards: the corners with v = 0 are at the upper, red pixel.
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 corner = mesh.points[mesh.triangles[0].corner[k]];
     const Vec3 colour =
-        surface_colour(material, corner, mesh.uv[0][k] + Vec2(0.01f, corner.y() > 1 ? 0.01f : -0.01f), mesh.pictures);
+        surface_colour(material, corner, mesh.uv[0][k] + Vec2(0.01f, corner.y() > 1 ? 0.01f : -0.01f), mesh.images);
     CHECK(colour.isApprox(corner.y() > 1 ? Vec3(0, 1, 0) : Vec3(1, 0, 0)));
   }
 }
@@ -206,7 +206,7 @@ TEST_CASE("damaged meshes and textures are reported in one line that says where 
       {"json.glb", "glTF" + bytes<std::uint32_t>({2, 24}) + glb_chunk("JSON", "{{{", ' '), ""},
       {"accessor.glb", long_view, ""},
       {"material.glb", stranger, ""},
-      {"text.glb", glb("no picture", "image/png"), "is no picture of a known kind"},
+      {"text.glb", glb("no image", "image/png"), "is no image of a known kind"},
       {"page.glb", glb("<!DOCTYPE html>", "image/png"), "GIF), but a web page"},
       {"lfs.obj", "version https://git-lfs.github.com/spec/v1\n", "is not a mesh, but a Git LFS pointer"},
       {"lfs.glb", "version https://git-lfs.github.com/spec/v1\n", "is not a mesh, but a Git LFS pointer"},

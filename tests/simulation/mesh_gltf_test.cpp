@@ -20,8 +20,8 @@ struct Case {
   std::vector<std::string> warnings{};
 
   std::string png(const Image& image) const {
-    write_png(folder.path() / "picture.png", image);
-    return file_contents(folder.path() / "picture.png");
+    write_png(folder.path() / "image.png", image);
+    return file_contents(folder.path() / "image.png");
   }
   Mesh read(const char* name = "a.glb") { return read_text(name, glb.file()); }
   Mesh read_text(const char* name, const std::string& contents) {
@@ -197,7 +197,7 @@ TEST_CASE("glTF EXT_texture_webp comes before the texture's usual source") {
   one.glb.json["textures"][0] = {{"extensions", {{"KHR_texture_basisu", {{"source", 0}}}}}};
   check_colour(one.read(), 255, 255, 255);
   REQUIRE(one.warnings.size() == 1);
-  CHECK_THAT(one.warnings[0], Catch::EndsWith("texture 0 has no picture that is read (KHR_texture_basisu); the object "
+  CHECK_THAT(one.warnings[0], Catch::EndsWith("texture 0 has no image that is read (KHR_texture_basisu); the object "
                                               "is rendered without it"));
 }
 
@@ -251,15 +251,15 @@ TEST_CASE("glTF 3.7.2.1: strips and fans are triangles, points and lines are not
   CHECK_THAT(lines.refusal(), Catch::EndsWith("holds no triangles"));
 }
 
-TEST_CASE("a glTF file is JSON, with its buffers and pictures beside it or in data URIs") {
+TEST_CASE("a glTF file is JSON, with its buffers and images beside it or in data URIs") {
   Case one;
   one.png(halves());
   one.glb.put_at("TEXCOORD_0", 0.25f, 0.5f);
-  one.glb.json["images"] = {{{"uri", "my%20textures/picture.png"}}};
+  one.glb.json["images"] = {{{"uri", "my%20textures/image.png"}}};
   one.glb.json["textures"] = {{{"source", 0}}};
   one.glb.pbr()["baseColorTexture"]["index"] = 0;
   std::filesystem::create_directories(one.folder.path() / "my textures");
-  std::filesystem::rename(one.folder.path() / "picture.png", one.folder.path() / "my textures/picture.png");
+  std::filesystem::rename(one.folder.path() / "image.png", one.folder.path() / "my textures/image.png");
   auto json = one.glb.json;
   json["buffers"] = {{{"byteLength", one.glb.binary().size()}, {"uri", "a%2Bb.bin"}}};
   one.folder.write("a+b.bin", one.glb.binary());
@@ -268,12 +268,12 @@ TEST_CASE("a glTF file is JSON, with its buffers and pictures beside it or in da
   json["images"] = {{{"uri",
                       "data:image/png;base64,"
                       "iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAIAAACQd1PeAAAADElEQVR4nGNg+M8AAAICAQB7CYF4AAAAAElFTkSuQmCC"}}};
-  CHECK(one.read_text("b.gltf", json.dump()).pictures.size() == 1);
+  CHECK(one.read_text("b.gltf", json.dump()).images.size() == 1);
   json["buffers"][0]["uri"] = "gone.bin";
   CHECK_THROWS_WITH(one.read_text("c.gltf", json.dump()), Catch::Contains("its buffer 'gone.bin' is missing"));
 }
 
-TEST_CASE("glTF 3.8.1: a sampler repeats, mirrors or clamps the picture") {
+TEST_CASE("glTF 3.8.1: a sampler repeats, mirrors or clamps the image") {
   for (const auto& [wrap, r] : {std::pair(10497, 255), std::pair(33648, 0), std::pair(33071, 0)}) {
     Case one;
     one.glb.put_at("TEXCOORD_0", 1.25f, 0.5f);

@@ -31,11 +31,11 @@ inline MeshLook look_of(const svnet::simulation::Mesh& mesh) {
           return ((1 - u - v) * corner[0] + u * corner[1] + v * corner[2]).eval();
         };
         const Vec2 uv = mesh.uv.empty() ? Vec2(0, 0) : between(mesh.uv[t]);
-        Vec3 colour = surface_colour(material, Vec3::Zero(), uv, mesh.pictures);
+        Vec3 colour = surface_colour(material, Vec3::Zero(), uv, mesh.images);
         if (!mesh.tints.empty()) colour = colour.cwiseProduct(between(mesh.tints[t]));
         for (int k = 0; k < 3; ++k) look.srgb[k] += weight * srgb_from_linear(colour[k]);
         const Vec2 metal_uv = mesh.metal_uv.empty() ? Vec2(0, 0) : between(mesh.metal_uv[t]);
-        if (is_metal(material, metal_uv, mesh.pictures)) look.metal += weight;
+        if (is_metal(material, metal_uv, mesh.images)) look.metal += weight;
         area += static_cast<double>(weight);
       }
   }

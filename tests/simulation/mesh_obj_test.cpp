@@ -26,7 +26,7 @@ struct Case {
   fs::path write(const fs::path& relative, const std::string& contents) const {
     return folder.write("collection" / relative, contents);
   }
-  void picture(const fs::path& relative, std::uint8_t r, std::uint8_t g, std::uint8_t b) const {
+  void image(const fs::path& relative, std::uint8_t r, std::uint8_t g, std::uint8_t b) const {
     fs::create_directories((folder.path() / "collection" / relative).parent_path());
     write_png(folder.path() / "collection" / relative, {1, 1, {r, g, b}});
   }
@@ -62,7 +62,7 @@ void check_colour(const Mesh& mesh, float r, float g, float b) {
 TEST_CASE("MTL: Kd times map_Kd; Kd 0 0 0 beside a texture leaves the texture alone") {
   const float half = srgb_from_linear(0.5f);
   Case one;
-  one.picture("thing/t.png", 255, 255, 0);
+  one.image("thing/t.png", 255, 255, 0);
   check_colour(one.read_square("newmtl paint\nKd 0.5 0.25 1\nmap_Kd t.png\n"), half, srgb_from_linear(0.25f), 0);
   check_colour(one.read_square("newmtl paint\nKd 0 0 0\nmap_Kd t.png\n"), 255, 255, 0);
   check_colour(one.read_square("newmtl paint\nmap_Kd t.png\n"), 255, 255, 0);
@@ -73,11 +73,11 @@ TEST_CASE("MTL: Kd times map_Kd; Kd 0 0 0 beside a texture leaves the texture al
 
 TEST_CASE("MTL: options before a texture's name, blanks and quotes in it, blanks after it") {
   Case one;
-  one.picture("thing/my paint.png", 255, 0, 0);
+  one.image("thing/my paint.png", 255, 0, 0);
   for (const char* name :
        {"my paint.png", "my paint.png  \t", "\"my paint.png\"", "-clamp on -bm 0.5 -o 0.5 0.5 0 -s 2 2 my paint.png"})
     check_colour(one.read_square(std::string("newmtl paint \nmap_Kd ") + name + "\r\n"), 255, 0, 0);
-  one.picture("thing/-mm.png", 0, 0, 255);
+  one.image("thing/-mm.png", 0, 0, 255);
   check_colour(one.read_square("newmtl paint\nmap_Kd -mm.png\n"), 0, 0, 255);
   // -s and -o move the coordinates.
   fs::create_directories(one.folder.path() / "collection/thing");
@@ -89,7 +89,7 @@ TEST_CASE("MTL: options before a texture's name, blanks and quotes in it, blanks
 
 TEST_CASE("names in OBJ may have blanks after them") {
   Case one;
-  one.picture("thing/t.png", 255, 0, 0);
+  one.image("thing/t.png", 255, 0, 0);
   one.write("thing/a.mtl", "newmtl paint \nKd 1 1 1 \nmap_Kd t.png \n");
   std::string obj = kSquare;
   obj.replace(obj.find("a.mtl\n"), 6, "a.mtl \n").replace(obj.find("paint\n"), 6, "paint \n");
@@ -105,7 +105,7 @@ TEST_CASE("textures are looked up as they are written, with / or \\, anywhere in
         std::pair("images/t.png", "..\\images\\t.png"), std::pair("thing/t.png", "../thing/./t.png")}) {
     Case one;
     INFO(written);
-    one.picture(file, 255, 0, 0);
+    one.image(file, 255, 0, 0);
     check_colour(one.read_square(std::string("newmtl paint\nmap_Kd ") + written + "\n"), 255, 0, 0);
     CHECK(one.warnings.empty());
   }
@@ -113,22 +113,22 @@ TEST_CASE("textures are looked up as they are written, with / or \\, anywhere in
 
 TEST_CASE("two textures of one file name in two folders are two textures") {
   Case one;
-  one.picture("thing/a/t.png", 255, 0, 0);
-  one.picture("thing/b/t.png", 0, 0, 255);
+  one.image("thing/a/t.png", 255, 0, 0);
+  one.image("thing/b/t.png", 0, 0, 255);
   one.write("thing/a.mtl", "newmtl one\nmap_Kd a/t.png\nnewmtl two\nmap_Kd b/t.png\nnewmtl same\nmap_Kd ./a/t.png\n");
   one.write(
       "thing/a.obj",
       "mtllib a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nusemtl one\nf 1/1 2/1 3/1\nusemtl two\nf 1/1 3/1 "
       "4/1\nusemtl same\nf 1/1 2/1 4/1\n");
   const Mesh mesh = one.read();
-  REQUIRE(mesh.pictures.size() == 2);
-  CHECK(mesh.pictures[0].rgb != mesh.pictures[1].rgb);
+  REQUIRE(mesh.images.size() == 2);
+  CHECK(mesh.images[0].rgb != mesh.images[1].rgb);
 }
 
 TEST_CASE("a texture or material file outside the collection is refused") {
   Case one;
   const std::string outside = one.folder.write("secret.png", "").string();
-  one.picture("../secret.png", 255, 0, 0);
+  one.image("../secret.png", 255, 0, 0);
   for (const std::string& written : {std::string("../../secret.png"), outside, std::string("C:\\maps\\paint.png")}) {
     one.write("thing/a.mtl", "newmtl paint\nmap_Kd " + written + "\n");
     one.write("thing/a.obj", kSquare);
@@ -139,7 +139,7 @@ TEST_CASE("a texture or material file outside the collection is refused") {
   one.write("thing/a.obj", "mtllib ../../a.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 3\n");
   CHECK_THAT(one.refusal(), Catch::Contains("material file '../../a.mtl' lies outside the collection"));
   // An absolute path of the machine that wrote the file: the same name beside the mesh is taken.
-  one.picture("thing/paint.png", 255, 0, 0);
+  one.image("thing/paint.png", 255, 0, 0);
   check_colour(one.read_square("newmtl paint\nmap_Kd C:\\maps\\paint.png\n"), 255, 0, 0);
   REQUIRE(one.warnings.size() == 1);
   CHECK_THAT(one.warnings[0], Catch::EndsWith("texture 'C:\\maps\\paint.png' is taken from beside the mesh"));
@@ -160,7 +160,7 @@ TEST_CASE("a mesh that is a symbolic link has its textures beside the link or be
 
 TEST_CASE("Gazebo's models have their textures in materials/textures beside meshes") {
   Case one;
-  one.picture("thing/model/materials/textures/t.png", 255, 0, 0);
+  one.image("thing/model/materials/textures/t.png", 255, 0, 0);
   one.write("thing/model/meshes/a.mtl", "newmtl paint\nmap_Kd t.png\n");
   one.write("thing/model/meshes/a.obj", kSquare);
   check_colour(one.read("thing/model/meshes/a.obj"), 255, 0, 0);
@@ -209,11 +209,11 @@ TEST_CASE("textures are PNG, BMP, TGA, GIF or TIFF, told by their contents") {
     CHECK_THAT(one.refusal(), Catch::Contains(": texture ") && Catch::Contains(name) && Catch::Contains("damaged"));
   }
   Case none;
-  none.write("thing/t.dat", "no picture");
+  none.write("thing/t.dat", "no image");
   none.write("thing/a.mtl", "newmtl paint\nmap_Kd t.dat\n");
   none.write("thing/a.obj", kSquare);
   CHECK_THAT(none.refusal(),
-             Catch::EndsWith("t.dat: is no picture of a known kind (PNG, JPEG, WebP, BMP, TGA, TIFF or GIF)"));
+             Catch::EndsWith("t.dat: is no image of a known kind (PNG, JPEG, WebP, BMP, TGA, TIFF or GIF)"));
 }
 
 TEST_CASE("a georeferenced scan is centred before it loses its detail to 32 bits") {

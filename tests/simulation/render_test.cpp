@@ -170,10 +170,10 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   shot.depth.metres.assign(40000, 0.8f);
   shot.mask.assign(40000, 0);
   shot.depth.metres[100 * 200 + 100] = 0.5f;  // a spike, whose neighbours are on a silhouette
-  const RgbdPicture picture = sensor_picture(shot, {3, 7});
+  const RgbdImage image = sensor_image(shot, {3, 7});
   double sum = 0, squares = 0;
   Index holes = 0, count = 0;
-  for (const float z : picture.depth.metres) {
+  for (const float z : image.depth.metres) {
     if (z == 0) ++holes;
     if (z < 0.6f) continue;
     CHECK(std::abs(1000 * z - std::round(1000 * z)) < 1e-3f);
@@ -186,10 +186,10 @@ TEST_CASE("the sensor's noise is that of the paper's camera") {
   // σ = 1.4 mm · 0.8², and the rounding's 1 mm / √12.
   CHECK(1000 * std::sqrt(squares / static_cast<double>(count)) == Approx(std::hypot(1.4 * 0.64, 0.2887)).epsilon(0.03));
   double level = 0;
-  for (const std::uint8_t value : picture.rgb.rgb) level += value;
+  for (const std::uint8_t value : image.rgb.rgb) level += value;
   CHECK(level / 120000 == Approx(static_cast<double>(srgb_from_linear(0.2f))).margin(0.5));
-  CHECK(sensor_picture(shot, {3, 8}).rgb.rgb != picture.rgb.rgb);
-  CHECK(sensor_picture(shot, {3, 7}).rgb.rgb == picture.rgb.rgb);
+  CHECK(sensor_image(shot, {3, 8}).rgb.rgb != image.rgb.rgb);
+  CHECK(sensor_image(shot, {3, 7}).rgb.rgb == image.rgb.rgb);
 }
 
 TEST_CASE("conversion to sRGB and back is the identity") {

@@ -36,15 +36,15 @@ struct Row {
 
 const Row kRows[] = {
     // images
-    {"missing picture", "", PREDICT "none.png", "none.png: no such file"},
-    {"a folder as picture", "", PREDICT "data", "data: is a folder, expected a picture (PNG, JPEG or WebP)"},
-    {"truncated JPEG", "head -c -40 $PICTURES/rgb.jpg >bad.jpg", PREDICT "bad.jpg",
-     "bad.jpg: is a damaged or incomplete JPEG picture"},
+    {"missing image", "", PREDICT "none.png", "none.png: no such file"},
+    {"a folder as image", "", PREDICT "data", "data: is a folder, expected an image (PNG, JPEG or WebP)"},
+    {"truncated JPEG", "head -c -40 $IMAGES/rgb.jpg >bad.jpg", PREDICT "bad.jpg",
+     "bad.jpg: is a damaged or incomplete JPEG image"},
     {"truncated PNG", "head -c -40 top.png >bad.png", PREDICT "bad.png",
-     "bad.png: is a damaged or incomplete PNG picture"},
+     "bad.png: is a damaged or incomplete PNG image"},
     {"0-byte PNG", ": >bad.png", PREDICT "bad.png", "bad.png: is empty"},
     {"text renamed to .png", "echo hello >bad.png", PREDICT "bad.png",
-     "bad.png: is not a PNG, JPEG or WebP picture, whatever its name says"},
+     "bad.png: is not a PNG, JPEG or WebP image, whatever its name says"},
     {"PNG header of 30,000 x 30,000 pixels",
      "{ printf '\\211PNG\\r\\n\\032\\n\\0\\0\\0\\015IHDR\\0\\0u0\\0\\0u0\\010\\002\\0\\0\\0\\351\\105\\157\\355'; "
      "tail -c +34 top.png; } >bad.png",
@@ -53,7 +53,7 @@ const Row kRows[] = {
      "printf '\\377\\330\\377\\300\\0\\021\\010u0u0\\003\\001\\021\\0\\002\\021\\001\\003\\021\\001"
      "\\377\\332\\0\\014\\003\\001\\0\\002\\0\\003\\0\\0\\077\\0' >bad.jpg",
      PREDICT "bad.jpg", "bad.jpg: has 30000x30000 pixels, more than the 64 megapixels"},
-    {"animated WebP", "", PREDICT "$PICTURES/animated.webp", "animated.webp: is an animated WebP"},
+    {"animated WebP", "", PREDICT "$IMAGES/animated.webp", "animated.webp: is an animated WebP"},
     // models
     {"missing model", "", PREDICT_WITH("none.safetensors"), "none.safetensors: cannot be read"},
     {"model cut short", "head -c -100 model.safetensors >bad.safetensors", PREDICT_WITH("bad.safetensors"),
@@ -105,8 +105,8 @@ const Row kRows[] = {
      "data: 1 categories to tell apart besides the excluded ones"},
     {"no object left to train on", "", PRETRAIN "--images data --validation-objects 2",
      "data: category 'ball' has 2 objects, and --validation-objects 2 leaves none of them to train on"},
-    {"damaged picture in pretraining", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png",
-     PRETRAIN "--images bad", "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG picture"},
+    {"damaged image in pretraining", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png",
+     PRETRAIN "--images bad", "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG image"},
     {"full disk: weights", "", "ulimit -f 1; " PRETRAIN "--images data --quiet --epochs 1",
      "out.safetensors: cannot be written: File too large"},
     // configurations
@@ -135,18 +135,18 @@ const Row kRows[] = {
      "bad/cone/1/1: pose without its top view"},
     {"view out of range", "cp -r data bad; cp top.png bad/cone/1/1/95_0.png", FEATURES_OF("bad"),
      "bad/cone/1/1/95_0.png: phi is 95, expected 0 to 90 degrees"},
-    {"the same view twice", "cp -r data bad; cp $PICTURES/rgb.jpg bad/cone/1/1/45_0.jpg", FEATURES_OF("bad"),
+    {"the same view twice", "cp -r data bad; cp $IMAGES/rgb.jpg bad/cone/1/1/45_0.jpg", FEATURES_OF("bad"),
      "bad/cone/1/1/45_0.png: the same view as 45_0.jpg; remove one of them"},
-    {"damaged picture in a dataset", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png", FEATURES_OF("bad"),
-     "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG picture"},
+    {"damaged image in a dataset", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png", FEATURES_OF("bad"),
+     "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG image"},
     // features and scores
     {"missing features", "", SCORE "none.h5", "none.h5: no such file"},
     {"features cut short", "head -c 3000 features.h5 >bad.h5", SCORE "bad.h5",
      "bad.h5: damaged or incomplete HDF5 file"},
     {"scores as features", "", SCORE "scores.h5", "scores.h5: attribute 'backbone': is missing"},
-    {"features of other pictures", "cp -r data bad; cp top.png bad/cone/1/1/45_0.png",
+    {"features of other images", "cp -r data bad; cp top.png bad/cone/1/1/45_0.png",
      "svnet-score --dataset bad --problems 50 --output out.h5 --features features.h5",
-     "features.h5: features of other pictures than those in bad; run svnet-features again"},
+     "features.h5: features of other images than those in bad; run svnet-features again"},
     {"excluded category that does not exist", "", SCORE "features.h5 --exclude ring,cub", "did you mean 'cube'?"},
     // evaluation
     {"a folder that is no run", "mkdir bad", "svnet-eval bad", "bad: is no run folder"},
@@ -160,7 +160,7 @@ const Row kRows[] = {
      "mkdir -p runs/bad; cp config.yaml bad.yaml; cp model.safetensors runs/bad", "svnet-eval bad.yaml --json bad.yaml",
      "bad.yaml: "},
     {"nothing to describe", "", "svnet-info none.h5", "none.h5: cannot be read"},
-    {"a picture to describe", "", "svnet-info top.png", "top.png: is not a safetensors file"},
+    {"an image to describe", "", "svnet-info top.png", "top.png: is not a safetensors file"},
     // outputs
     {"output into a folder that does not exist", "", PREDICT "top.png --plot none/plot.png",
      "none/plot.png: cannot be written: the folder none does not exist; create it first"},
@@ -173,7 +173,7 @@ const Row kRows[] = {
      "top.png: is not a folder; give the name of one"},
     {"full disk: standard output", "", PREDICT "top.png --json >/dev/full",
      "cannot write to standard output, is the disk full?"},
-    {"full disk: picture", "", "ulimit -f 1; " PREDICT "top.png --plot plot.png",
+    {"full disk: image", "", "ulimit -f 1; " PREDICT "top.png --plot plot.png",
      "plot.png: cannot be written: File too large"},
     {"full disk: features", "", "ulimit -f 1; " FEATURES_WITH("weights/tiny_xception.h5"),
      "out.h5: cannot be written: File too large"},
@@ -188,7 +188,7 @@ const Row kRows[] = {
     {"features over their weights", "cp weights/tiny_xception.h5 bad.h5",
      "svnet-features --backbone tiny_xception --weights bad.h5 --images data --output ./bad.h5",
      "bad.h5: cannot be written: the command needs this file"},
-    {"features over a picture", "cp -r data bad",
+    {"features over an image", "cp -r data bad",
      "svnet-features --backbone tiny_xception --weights weights/tiny_xception.h5 --images bad --output "
      "bad/cone/1/1/45_0.png",
      "45_0.png: cannot be written: the command needs this file"},
@@ -198,7 +198,7 @@ const Row kRows[] = {
     {"an output over another", "echo '{\"width\":64,\"height\":64,\"fx\":60,\"fy\":60,\"cx\":32,\"cy\":32}' >bad.json",
      "svnet-views bad.json --centre 0 0 0 --diagonal 0.2 --csv out.csv --json out.csv",
      "out.csv: cannot be written: the command needs this file"},
-    {"a run among its pictures", "cp -r data bad", "svnet-train config.yaml --output bad/run --set dataset.root=bad",
+    {"a run among its images", "cp -r data bad", "svnet-train config.yaml --output bad/run --set dataset.root=bad",
      "bad/run: lies in the data set "},
     {"a run over a configuration by hand", "mkdir bad; { echo '# mine'; cat config.yaml; } >bad/config.yaml",
      "svnet-train config.yaml --output bad", "bad/config.yaml: was not written by a run"},
@@ -226,7 +226,7 @@ const Row kRows[] = {
 void check_row(const Workplace& place, const Row& row) {
   INFO(row.name << ": " << row.command);
   const auto before = place.entries();
-  const std::string names = "PICTURES=" FIXTURES "/pictures; FIXTURES=" FIXTURES "/io; ";
+  const std::string names = "IMAGES=" FIXTURES "/pictures; FIXTURES=" FIXTURES "/io; ";
   if (*row.make != '\0') REQUIRE(place.run(names + row.make).status == 0);
   const auto made = place.entries();
   const Ran ran = place.run(names + row.command);

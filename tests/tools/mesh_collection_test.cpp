@@ -54,7 +54,7 @@ TEST_CASE("one bad mesh, one without its texture and one in another unit cost el
                           "left out: meshes/box/broken.obj: line 3: a corner is at point 3 of 2",
                           "meshes/box/cm.obj: is 8 units long, taken as centimetres: 0.08 m (--unit decides otherwise)",
                           "meshes/box/plain.obj: texture 'gone.png' is missing; the object is rendered without it"});
-  CHECK_THAT(ran.out, Catch::EndsWith(" pictures of 11 poses in d; 1 of 12 objects left out (box/broken), as "
+  CHECK_THAT(ran.out, Catch::EndsWith(" images of 11 poses in d; 1 of 12 objects left out (box/broken), as "
                                       "manifest.json tells\n"));
   const auto json = manifest(folder);
   CHECK(json.at("poses").at("box").size() == 11);

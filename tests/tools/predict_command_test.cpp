@@ -21,7 +21,7 @@ class Workplace {
  public:
   Workplace() {
     write_model(folder.path() / "model.safetensors", small_model());
-    write_png(folder.path() / "top.png", small_picture());
+    write_png(folder.path() / "top.png", small_image());
   }
 
   Ran run(const std::string& arguments) const { return run_shell(folder.path(), SVNET_PREDICT " " + arguments); }
@@ -35,7 +35,7 @@ TEST_CASE("svnet-predict prints the paper's grid, best first") {
   const Workplace place;
   const Predictor predictor(small_model());
   const std::vector<CameraPose> poses = paper_grid();
-  const std::vector<float> scores = predictor.scores(predictor.embed(small_picture()), poses);
+  const std::vector<float> scores = predictor.scores(predictor.embed(small_image()), poses);
   const std::vector<std::size_t> order = best_first(scores);
 
   const Ran table = place.run("model.safetensors --image top.png");
@@ -74,7 +74,7 @@ TEST_CASE("svnet-predict reads candidates from a file and draws them") {
     CHECK_THAT(ran.out, Catch::Contains(part));
   const Predictor predictor(small_model());
   const std::vector<CameraPose> poses{{10, 50}, {200.5, 70}, {-90, 0}};
-  const Image expected = half_sphere_plot(poses, predictor.scores(predictor.embed(small_picture()), poses));
+  const Image expected = half_sphere_plot(poses, predictor.scores(predictor.embed(small_image()), poses));
   CHECK(read_image(place.folder.path() / "plot.png").rgb == expected.rgb);
 }
 
@@ -99,9 +99,9 @@ TEST_CASE("svnet-predict takes an image through a pipe and writes the plot to st
   REQUIRE(plain.status == 0);
   const std::string piped = "cat top.png | " SVNET_PREDICT " model.safetensors --image /dev/stdin";
   CHECK(run_shell(place.folder.path(), piped).out == plain.out);
-  const Ran picture = place.run("model.safetensors --image top.png --plot /dev/stdout | cat");
-  CHECK(picture.status == 0);
-  CHECK(picture.out == file_contents(place.folder.path() / "plot.png"));
+  const Ran image = place.run("model.safetensors --image top.png --plot /dev/stdout | cat");
+  CHECK(image.status == 0);
+  CHECK(image.out == file_contents(place.folder.path() / "plot.png"));
   CHECK(place.run("model.safetensors --image top.png --plot /dev/stdout > out.png").status == 0);
   CHECK(file_contents(place.folder.path() / "out.png") == file_contents(place.folder.path() / "plot.png"));
 }
@@ -112,7 +112,7 @@ TEST_CASE("svnet-predict warns of an EXIF orientation, or obeys it") {
                              place.folder.path() / "turned.jpg");
   const Ran ignored = place.run("model.safetensors --image turned.jpg");
   CHECK(ignored.err ==
-        "turned.jpg: the EXIF orientation 6 is ignored; --exif-orientation obey turns the picture as viewers do\n");
+        "turned.jpg: the EXIF orientation 6 is ignored; --exif-orientation obey turns the image as viewers do\n");
   const Ran obeyed = place.run("model.safetensors --image turned.jpg --exif-orientation obey");
   CHECK(obeyed.err.empty());
   CHECK(obeyed.out != ignored.out);

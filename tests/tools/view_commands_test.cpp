@@ -80,7 +80,7 @@ TEST_CASE("svnet-render leaves out a pose that cannot be collected, and says so"
   REQUIRE(ran.status == 0);
   const std::string problem = "not collected in 16 tries: [localise] nothing is found";
   CHECK_THAT(ran.err, Catch::Contains("left out: box/crumb/1: " + problem));
-  CHECK_THAT(ran.out, Catch::Contains(" pictures of 1 poses in d; 1 left out, as manifest.json tells\n"));
+  CHECK_THAT(ran.out, Catch::Contains(" images of 1 poses in d; 1 left out, as manifest.json tells\n"));
   const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
   CHECK_THAT(manifest.at("left_out").at("box").at("crumb").at("1").get<std::string>(), Catch::StartsWith(problem));
   CHECK(manifest.at("poses").at("box").size() == 1);
@@ -167,10 +167,10 @@ TEST_CASE("svnet-views localises an object and prints camera poses") {
   const TemporaryFolder folder;
   REQUIRE(run(folder, std::string(kRender) + "--output d").status == 0);
   const std::string extra = "d/_extra/mug/1/1/";
-  const std::string pictures = " d/_extra/overview_camera.json --background " + extra + "overview_background.png " +
-                               extra + "overview_background_depth.png --current " + extra + "overview.png " + extra +
-                               "overview_depth.png ";
-  REQUIRE(run(folder, SVNET_VIEWS + pictures + "--json v.json --csv v.csv --plot v.png --steps steps").status == 0);
+  const std::string images = " d/_extra/overview_camera.json --background " + extra + "overview_background.png " +
+                             extra + "overview_background_depth.png --current " + extra + "overview.png " + extra +
+                             "overview_depth.png ";
+  REQUIRE(run(folder, SVNET_VIEWS + images + "--json v.json --csv v.csv --plot v.png --steps steps").status == 0);
   const auto json = nlohmann::json::parse(file_contents(folder.path() / "v.json"));
   const auto manifest = nlohmann::json::parse(file_contents(folder.path() / "d/manifest.json"));
   CHECK(json.at("object").at("length_m") == manifest.at("poses").at("mug").at("1").at("1").at("length_m"));
@@ -215,7 +215,7 @@ TEST_CASE("svnet-views says what is wrong") {
   CHECK_THAT(run(folder, SVNET_VIEWS " none.json --centre 1 2 3 --diagonal 0.5").err,
              Catch::Contains("none.json: cannot be read"));
   CHECK(run(folder, SVNET_VIEWS " camera.json --background a b --current c d").err ==
-        "svnet-views: camera.json: the key 'pose' is missing, where the camera was for the pictures\n");
+        "svnet-views: camera.json: the key 'pose' is missing, where the camera was for the images\n");
 }
 
 TEST_CASE("svnet-views takes a ROS camera, and CSV to standard output") {

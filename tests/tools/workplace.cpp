@@ -44,7 +44,7 @@ Workplace::Workplace() {
   write_tiny_weights(folder_.path() / "weights" / "tiny_xception.h5");
   folder_.write("config.yaml", kConfig);
   folder_.write("poses.csv", "theta,phi\n0,45\n90,60\n200.5,75\n90,90\n");
-  write_png(folder_.path() / "top.png", small_picture());
+  write_png(folder_.path() / "top.png", small_image());
   write_model(folder_.path() / "model.safetensors", small_model());
   output_of(
       "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "

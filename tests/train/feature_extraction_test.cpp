@@ -57,7 +57,7 @@ TEST_CASE("a damaged image of a later batch is named, after the batches before i
   const ViewDataset dataset = read_view_dataset(folder.path());
   REQUIRE(dataset.views.size() == 32);
   const std::string damaged = dataset.views[20].path;
-  folder.write(damaged, "no picture");
+  folder.write(damaged, "no image");
   const Backbone backbone = random_backbone("tiny_xception", "", 1);
   const int threads_before = Parallel::shared().threads();
   for (const int threads : {1, 3}) {

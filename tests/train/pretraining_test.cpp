@@ -39,8 +39,8 @@ TEST_CASE("pretraining learns, and gives the same bits for any number of threads
     const Messages messages{.line = [&](std::string_view line) { lines.emplace_back(line); }, .progress = {}};
     const Pretrained result = pretrain(dataset, small_options(), messages);
     CHECK(result.categories == std::vector<std::string>{"ball", "cone", "cube"});
-    CHECK(result.training_pictures == 12);
-    CHECK(result.validation_pictures == 12);
+    CHECK(result.training_images == 12);
+    CHECK(result.validation_images == 12);
     CHECK(result.validation_accuracy >= 0);
     CHECK(result.validation_accuracy <= 1);
     REQUIRE(lines.size() == 2);
@@ -65,8 +65,8 @@ TEST_CASE("a pretrained backbone distinguishes new objects") {
   options.validation_objects = 0;
   options.epochs = 1;
   const Pretrained whole = pretrain(read_view_dataset(temporary.path()), options, {});
-  CHECK(whole.training_pictures == 32);
-  CHECK(whole.validation_pictures == 0);
+  CHECK(whole.training_images == 32);
+  CHECK(whole.validation_images == 0);
   CHECK(std::isnan(whole.validation_accuracy));
 }
 
@@ -106,7 +106,7 @@ TEST_CASE("pretraining says what is wrong with its data") {
   CHECK_THROWS_WITH(attempt(options),
                     Catch::StartsWith("[pretraining] ") &&
                         Catch::EndsWith(" is not finite after epoch 1; a smaller learning rate may help"));
-  temporary.write("cone/1/1/45_0.png", "no picture");
+  temporary.write("cone/1/1/45_0.png", "no image");
   CHECK_THROWS_WITH(attempt(small_options()),
-                    root + "/cone/1/1/45_0.png: is not a PNG, JPEG or WebP picture, whatever its name says");
+                    root + "/cone/1/1/45_0.png: is not a PNG, JPEG or WebP image, whatever its name says");
 }

@@ -291,7 +291,7 @@ TEST_CASE("inputs cached in every orientation equal those made on request") {
   const Backbone backbone = random_backbone("tiny_xception", "block4_act", 3);
   const auto frozen =
       std::make_shared<Inference>(backbone.graph(), backbone.parameters(), backbone.graph().find("block4_act"));
-  PictureInputs inputs(dataset, backbone.preprocessing(), frozen, {.orientations = 8, .flat = true});
+  ImageInputs inputs(dataset, backbone.preprocessing(), frozen, {.orientations = 8, .flat = true});
   const std::vector<Index> wanted{9, 8, 15};  // of view 1
   const Tensor made = inputs.batch(wanted);
   inputs.keep({1}, {}, SingleProcess::shared());
@@ -299,7 +299,7 @@ TEST_CASE("inputs cached in every orientation equal those made on request") {
   CHECK(made.shape() == kept.shape());
   CHECK(std::ranges::equal(made.values<float>(), kept.values<float>()));
   const Tensor as_taken =
-      PictureInputs(dataset, backbone.preprocessing(), frozen, {.flat = true}).batch(std::vector<Index>{1});
+      ImageInputs(dataset, backbone.preprocessing(), frozen, {.flat = true}).batch(std::vector<Index>{1});
   const auto row = [&](Index i) {
     return made.values<float>().subspan(static_cast<std::size_t>(i * made.dim(1)),
                                         static_cast<std::size_t>(made.dim(1)));

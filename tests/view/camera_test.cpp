@@ -107,16 +107,16 @@ TEST_CASE("impossible cameras and poses are refused") {
   CHECK(intrinsics_problem(good).empty());
   Intrinsics bad = good;
   bad.width = 0;
-  CHECK(intrinsics_problem(bad) == "the picture has 0x480 pixels, expected a positive width and height");
+  CHECK(intrinsics_problem(bad) == "the image has 0x480 pixels, expected a positive width and height");
   bad = good;
   bad.fy = -1;
   CHECK(intrinsics_problem(bad) == "fy is -1, expected a positive number of pixels");
   bad = good;
   bad.cx = 640;
-  CHECK(intrinsics_problem(bad) == "cx is 640, which is outside the picture of 640 pixels");
+  CHECK(intrinsics_problem(bad) == "cx is 640, which is outside the image of 640 pixels");
   bad.cx = std::nan("");
-  CHECK(intrinsics_problem(bad) == "cx is nan, which is outside the picture of 640 pixels");
-  CHECK_THROWS_WITH(viewing_radius_m(bad, 1), "[view] cx is nan, which is outside the picture of 640 pixels");
+  CHECK(intrinsics_problem(bad) == "cx is nan, which is outside the image of 640 pixels");
+  CHECK_THROWS_WITH(viewing_radius_m(bad, 1), "[view] cx is nan, which is outside the image of 640 pixels");
   CHECK_THROWS_WITH(viewing_radius_m(good, 0), "[view] the object's diagonal is 0 m, expected a positive length");
   CHECK_THROWS_WITH(look_at({0, 91}, 1, Vector3d::Zero(), CameraFrame::paper),
                     "[view] phi 91 is outside [0, 90] degrees");

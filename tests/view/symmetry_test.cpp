@@ -30,13 +30,13 @@ TEST_CASE("a mark in a top view turns like the azimuth") {
   for (Index row = 0; row < kSide; ++row)
     for (Index column = 0; column < kSide; ++column) {
       if (row == kSide / 2 && column == kSide / 2) continue;
-      std::vector<float> picture(kSide * kSide * 3);
-      for (Index c = 0; c < 3; ++c) picture[static_cast<std::size_t>((row * kSide + column) * 3 + c)] = 1;
-      const double before = azimuth_of_mark(kSide, picture);
+      std::vector<float> image(kSide * kSide * 3);
+      for (Index c = 0; c < 3; ++c) image[static_cast<std::size_t>((row * kSide + column) * 3 + c)] = 1;
+      const double before = azimuth_of_mark(kSide, image);
       for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
         CAPTURE(row, column, symmetry);
-        std::vector<float> turned(picture.size(), 5);
-        apply_symmetry(symmetry, kSide, picture.data(), turned.data());
+        std::vector<float> turned(image.size(), 5);
+        apply_symmetry(symmetry, kSide, image.data(), turned.data());
         const double expected = symmetric_theta_deg(symmetry, before);
         CHECK(expected >= 0);
         CHECK(expected < 360);
@@ -46,13 +46,13 @@ TEST_CASE("a mark in a top view turns like the azimuth") {
 }
 
 TEST_CASE("all orientations differ, and the first is the image as taken") {
-  std::vector<float> picture(3 * 3 * 3);
-  for (std::size_t i = 0; i < picture.size(); ++i) picture[i] = static_cast<float>(i + 1);
+  std::vector<float> image(3 * 3 * 3);
+  for (std::size_t i = 0; i < image.size(); ++i) image[i] = static_cast<float>(i + 1);
   std::set<std::vector<float>> seen;
   for (int symmetry = 0; symmetry < kSymmetries; ++symmetry) {
-    std::vector<float> turned(picture.size());
-    apply_symmetry(symmetry, 3, picture.data(), turned.data());
-    if (symmetry == 0) CHECK(turned == picture);
+    std::vector<float> turned(image.size());
+    apply_symmetry(symmetry, 3, image.data(), turned.data());
+    if (symmetry == 0) CHECK(turned == image);
     seen.insert(turned);
   }
   CHECK(seen.size() == kSymmetries);

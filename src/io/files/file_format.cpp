@@ -24,11 +24,11 @@ constexpr Signature kBinary[] = {
      "7zXZ\0"sv,
      "compressed by xz; decompress it: 'unxz'"},
     {"\x28\xb5\x2f\xfd"sv, "compressed by zstd; decompress it: 'unzstd'"},
-    {"\x89PNG\r\n\x1a\n"sv, "a PNG picture"},
-    {"\xff\xd8\xff"sv, "a JPEG picture"},
-    {"GIF8"sv, "a GIF picture; convert it to PNG"},
-    {"II*\0"sv, "a TIFF picture; convert it to PNG"},
-    {"MM\0*"sv, "a TIFF picture; convert it to PNG"},
+    {"\x89PNG\r\n\x1a\n"sv, "a PNG image"},
+    {"\xff\xd8\xff"sv, "a JPEG image"},
+    {"GIF8"sv, "a GIF image; convert it to PNG"},
+    {"II*\0"sv, "a TIFF image; convert it to PNG"},
+    {"MM\0*"sv, "a TIFF image; convert it to PNG"},
     {"\x93NUMPY"sv, "a NumPy array (.npy)"},
     {"%PDF-"sv, "a PDF document"},
     {"\x80\x02"sv, "a Python pickle, such as PyTorch writes"},
@@ -59,7 +59,7 @@ std::string_view meaning_of(std::string_view bytes) {
   if (bytes.empty()) return "empty";
   if (bytes.starts_with("PK\x03\x04")) return meaning_of_zip(bytes);
   if (bytes.substr(std::min<std::size_t>(4, bytes.size())).starts_with("ftyp"))
-    return "an HEIC or AVIF picture, or a video; convert it to PNG or JPEG";
+    return "an HEIC or AVIF image, or a video; convert it to PNG or JPEG";
   for (const Signature& signature : kBinary)
     if (bytes.starts_with(signature.start)) return signature.meaning;
   if (bytes.size() > 9 && bytes.substr(4, 5) == "\0\0\0\0{"sv && "\"} \n"sv.find(bytes[9]) != std::string_view::npos)

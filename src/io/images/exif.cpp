@@ -1,4 +1,4 @@
-// The orientation in the EXIF data of a picture: the tag 0x0112 of the first directory of a TIFF file, which is a
+// The orientation in the EXIF data of an image: the tag 0x0112 of the first directory of a TIFF file, which is a
 // segment of a JPEG file (APP1) or a chunk of a PNG (eXIf) or WebP file (EXIF). Damaged EXIF data count as none.
 #include <algorithm>
 

@@ -17,21 +17,21 @@ constexpr std::uintmax_t kMaximumFileSize = std::uintmax_t{1} << 30;
 
 }  // namespace
 
-std::vector<std::uint8_t> picture_contents(const fs::path& path) {
+std::vector<std::uint8_t> image_contents(const fs::path& path) {
   const std::string name = path.string();
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   check(status.type() != fs::file_type::not_found, name, ": no such file");
-  check(!fs::is_directory(status), name, ": is a folder, expected a picture (PNG, JPEG or WebP)");
+  check(!fs::is_directory(status), name, ": is a folder, expected an image (PNG, JPEG or WebP)");
   check(!fs::exists(status) || fs::is_regular_file(status) || fs::is_fifo(status), name,
-        ": is not a regular file, expected a picture");
+        ": is not a regular file, expected an image");
   errno = 0;
   std::ifstream file(path, std::ios::binary);
   check(file.is_open(), name, ": cannot be read: ", std::generic_category().message(errno));
   // A pipe has no size: it is read in pieces.
   const std::uintmax_t size = fs::is_fifo(status) ? kMaximumFileSize : fs::file_size(path, error);
   check(!error, name, ": cannot be read: ", error.message());
-  check(size <= kMaximumFileSize, name, ": has ", size, " bytes, more than a picture of 64 megapixels needs");
+  check(size <= kMaximumFileSize, name, ": has ", size, " bytes, more than an image of 64 megapixels needs");
   std::vector<std::uint8_t> bytes;
   constexpr std::uintmax_t kPiece = 1 << 20;
   while (bytes.size() < size && file) {
@@ -42,11 +42,11 @@ std::vector<std::uint8_t> picture_contents(const fs::path& path) {
   }
   if (fs::is_fifo(status)) {
     check(!file.bad(), name, ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
-    check(bytes.size() < kMaximumFileSize, name, ": has more bytes than a picture of 64 megapixels needs");
+    check(bytes.size() < kMaximumFileSize, name, ": has more bytes than an image of 64 megapixels needs");
   } else {
     check(bytes.size() == size, name, ": cannot be read: ", std::generic_category().message(errno != 0 ? errno : EIO));
   }
-  check(!bytes.empty(), name, ": is empty, expected a picture (PNG, JPEG or WebP)");
+  check(!bytes.empty(), name, ": is empty, expected an image (PNG, JPEG or WebP)");
   return bytes;
 }
 
@@ -93,7 +93,7 @@ Image image_of_size(const std::string& name, Index height, Index width) {
 }
 
 void fail_damaged(const std::string& name, const char* kind, const std::string& reason) {
-  fail(name, ": is a damaged or incomplete ", kind, " picture (", reason, "); replace the file");
+  fail(name, ": is a damaged or incomplete ", kind, " image (", reason, "); replace the file");
 }
 
 }  // namespace svnet::io

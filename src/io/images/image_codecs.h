@@ -58,7 +58,7 @@ float depth_or_zero(double z_m);
 
 /// The bytes of a file, or all that comes from a pipe. Throws Error that names it if it cannot be read, is empty, or is
 /// larger than 1 GiB.
-std::vector<std::uint8_t> picture_contents(const std::filesystem::path& path);
+std::vector<std::uint8_t> image_contents(const std::filesystem::path& path);
 /// Whether the bytes `expected` are at `offset`.
 bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);
 

@@ -16,29 +16,29 @@ namespace {
 Image decoded(const std::string& name, Bytes file) {
   if (std::optional<Image> image = decode_image(name, file)) return *std::move(image);
   const std::string instead = recognised_instead(file);
-  fail(name, ": is not a PNG, JPEG or WebP picture", instead.empty() ? ", whatever its name says" : instead);
+  fail(name, ": is not a PNG, JPEG or WebP image", instead.empty() ? ", whatever its name says" : instead);
 }
 
 }  // namespace
 
-Picture read_picture(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> file = picture_contents(path);
+StoredImage read_stored_image(const std::filesystem::path& path) {
+  const std::vector<std::uint8_t> file = image_contents(path);
   return {decoded(path.string(), file), exif_orientation(file)};
 }
 
 Image read_image(const std::filesystem::path& path, ExifOrientation exif) {
-  Picture picture = read_picture(path);
+  StoredImage stored = read_stored_image(path);
   switch (exif) {
     case ExifOrientation::ignore:
-      return std::move(picture.image);
+      return std::move(stored.image);
     case ExifOrientation::obey:
-      return oriented(std::move(picture.image), picture.exif_orientation);
+      return oriented(std::move(stored.image), stored.exif_orientation);
   }
   return {};
 }
 
 int read_exif_orientation(const std::filesystem::path& path) try {
-  return exif_orientation(picture_contents(path));
+  return exif_orientation(image_contents(path));
 } catch (const Error&) {
   return 1;
 }

@@ -17,13 +17,13 @@ namespace svnet::io {
 Image read_image(const std::filesystem::path& path, ExifOrientation exif = ExifOrientation::ignore);
 
 /// An image as it is stored, and its EXIF orientation, 1 to 8; 1 if it has none.
-struct Picture {
+struct StoredImage {
   Image image;
   int exif_orientation = 1;
 };
 
 /// Reads a file once, for both. Throws Error as read_image does.
-Picture read_picture(const std::filesystem::path& path);
+StoredImage read_stored_image(const std::filesystem::path& path);
 
 /// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or cannot be read.
 int read_exif_orientation(const std::filesystem::path& path);

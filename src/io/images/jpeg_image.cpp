@@ -100,7 +100,7 @@ Image decode_jpeg(const std::string& name, Bytes file) {
   JpegDecoder decoder(file);
   if (!decoder.read_header()) fail_damaged(name, "JPEG", decoder.reason());
   const int channels = decoder.channels();
-  check(channels == 1 || channels == 3 || channels == 4, name, ": is a JPEG picture with ", channels,
+  check(channels == 1 || channels == 3 || channels == 4, name, ": is a JPEG image with ", channels,
         " colour channels, expected 1 (grey), 3 or 4 (CMYK); convert it to RGB");
   Image image = image_of_size(name, decoder.height(), decoder.width());
   std::vector<std::uint8_t> stored(channels == 4 ? image.rgb.size() / 3 * 4 : 0);

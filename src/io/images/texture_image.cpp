@@ -134,17 +134,17 @@ bool is_tga(const std::string& name, Bytes file) {
 }  // namespace
 
 Image decode_texture(const std::string& name, Bytes file) {
-  check(file.size() < std::size_t{1} << 30, name, ": has ", file.size(), " bytes, more than a picture needs");
+  check(file.size() < std::size_t{1} << 30, name, ": has ", file.size(), " bytes, more than an image needs");
   if (std::optional<Image> image = decode_image(name, file)) return *std::move(image);
   if (has_bytes(file, 0, std::string_view("II*\0", 4)) || has_bytes(file, 0, std::string_view("MM\0*", 4)))
     return decode_tiff(name, file);
   if (has_bytes(file, 0, "BM")) return decode_with_stb(name, file, "BMP", bmp_bytes);
   if (has_bytes(file, 0, "GIF8")) return decode_with_stb(name, file, "GIF");
-  check(!has_bytes(file, 0, "\xabKTX"), name, ": is a KTX picture, which is not read; convert it to PNG");
-  check(!has_bytes(file, 0, "DDS "), name, ": is a DDS picture, which is not read; convert it to PNG");
+  check(!has_bytes(file, 0, "\xabKTX"), name, ": is a KTX image, which is not read; convert it to PNG");
+  check(!has_bytes(file, 0, "DDS "), name, ": is a DDS image, which is not read; convert it to PNG");
   const std::string instead = recognised_instead(file);
   check(is_tga(name, file) && instead.empty(), name,
-        ": is no picture of a known kind (PNG, JPEG, WebP, BMP, TGA, TIFF or GIF)", instead);
+        ": is no image of a known kind (PNG, JPEG, WebP, BMP, TGA, TIFF or GIF)", instead);
   return decode_with_stb(name, file, "TGA", tga_bytes);
 }
 

@@ -5,7 +5,7 @@
 
 namespace svnet::io {
 
-/// A picture as tools for meshes write textures: PNG, JPEG, WebP, BMP, TGA, TIFF or GIF (its first picture) as RGB;
+/// An image as tools for meshes write textures: PNG, JPEG, WebP, BMP, TGA, TIFF or GIF (its first image) as RGB;
 /// transparency is dropped. `file` is the whole file, `name` begins messages. The kind is told by the contents, but a
 /// TGA, which need not be marked, also by its name. Throws Error for a file of no known kind, that is damaged, or
 /// larger than 64 megapixels. Safe to call from several threads.

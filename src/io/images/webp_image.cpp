@@ -21,7 +21,7 @@ Image decode_webp(const std::string& name, Bytes file) {
   WebPBitstreamFeatures features;
   if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK)
     fail_damaged(name, "WebP", "its header cannot be read");
-  check(features.has_animation == 0, name, ": is an animated WebP, expected a single picture");
+  check(features.has_animation == 0, name, ": is an animated WebP, expected a single image");
   Image image = image_of_size(name, features.height, features.width);
   if (!WebPDecodeRGBInto(file.data(), file.size(), image.rgb.data(), image.rgb.size(),
                          static_cast<int>(image.width * 3)))

@@ -42,12 +42,12 @@ void check_fits_together(const Model& model) {
   check(model.symmetries == 1 || model.symmetries == view::kSymmetries, "there are ", model.symmetries,
         " orientations, expected 1 or ", view::kSymmetries);
   const Preprocessing& p = model.preprocessing;
-  check(model.symmetries == 1 || p.height == p.width, "pictures of ", p.height, "x", p.width,
+  check(model.symmetries == 1 || p.height == p.width, "images of ", p.height, "x", p.width,
         " cannot be turned; only square ones can");
   const Graph &backbone = model.backbone_graph, &head = model.head;
-  const auto pictures = backbone.inputs(), inputs = head.inputs();
-  check(pictures.size() == 1 && backbone.node(pictures[0]).shape == Shape{p.height, p.width, 3},
-        "the backbone does not take pictures of ", p.height, "x", p.width, ", as preprocessing makes them");
+  const auto images = backbone.inputs(), inputs = head.inputs();
+  check(images.size() == 1 && backbone.node(images[0]).shape == Shape{p.height, p.width, 3},
+        "the backbone does not take images of ", p.height, "x", p.width, ", as preprocessing makes them");
   const Shape& features = backbone.node(backbone.find(model.backbone_output)).shape;
   check(inputs.size() == 2 && head.node(inputs[0]).shape == Shape{element_count(features)} &&
             head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&

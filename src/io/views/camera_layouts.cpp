@@ -15,7 +15,7 @@ using json = nlohmann::ordered_json;
 using Names = std::vector<std::string>;
 
 constexpr const char* kRectify =
-    "; pictures must be rectified first (ROS: image_proc), and the camera of the rectified pictures given: no "
+    "; images must be rectified first (ROS: image_proc), and the camera of the rectified images given: no "
     "distortion";
 
 Index pixels_at(const json& object, const std::string& name, const std::string& key) {
@@ -79,19 +79,19 @@ bool same_pinhole(const Intrinsics& a, const Intrinsics& b) {
          std::abs(a.cy - b.cy) < kSame_px;
 }
 
-/// Pictures with fewer pixels than the sensor: their pixels are not those of K.
+/// Images with fewer pixels than the sensor: their pixels are not those of K.
 void check_whole(const json& object, const std::string& name) {
   for (const char* key : {"binning_x", "binning_y"})
     if (object.contains(key))
       check(number_at(object, name, key) <= 1, name, ": ", key, " is ", object.at(key).get<double>(),
-            "; give the camera of the pictures as they are");
+            "; give the camera of the images as they are");
   if (!object.contains("roi")) return;
   const json& roi = object.at("roi");
   check(roi.is_object(), name, ": roi is not a mapping");
   for (const char* key : {"x_offset", "y_offset"})
     if (roi.contains(key))
       check(number_at(roi, name + ": roi", key) == 0, name, ": roi: ", key, " is not 0; give the camera of the ",
-            "pictures as they are");
+            "images as they are");
 }
 
 const Names kRosKeys{"K",
@@ -130,7 +130,7 @@ Intrinsics ros_camera(const json& document, const std::string& name) {
   if (p.empty() || p[0] == 0) return camera;  // ROS: not calibrated
   const Intrinsics rectified = with_matrix(camera, p, 4, name + ": " + projection);
   check(same_pinhole(camera, rectified), name, ": ", matrix, " and ", projection, " are different cameras; leave out ",
-        projection, " if the pictures are as taken, or give its numbers as ", matrix, " if they are rectified");
+        projection, " if the images are as taken, or give its numbers as ", matrix, " if they are rectified");
   return camera;
 }
 

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kViewNames = "PHI_THETA.png, .jpg, .jpeg or .webp, such as 45_90.png";
 
-/// Files and folders that systems leave beside pictures, in lower case.
+/// Files and folders that systems leave beside images, in lower case.
 constexpr std::array<std::string_view, 9> kLeftBySystems{".ds_store",    "@eadir",      "thumbs.db",
                                                          "ehthumbs.db",  "desktop.ini", "lost+found",
                                                          "$recycle.bin", "icon\r",      "system volume information"};

@@ -7,7 +7,7 @@
 
 // A dataset on disk: ROOT/category/object/pose/PHI_THETA.png (or .jpg, .jpeg, .webp, in upper or lower case). Angles
 // are whole degrees, φ in [0, 90] and θ in [0, 359]; the top view is 90_90. Folders may have any name. Names that begin
-// with '_' or '.' are ignored at every level, and so are names that systems leave beside pictures (Thumbs.db,
+// with '_' or '.' are ignored at every level, and so are names that systems leave beside images (Thumbs.db,
 // desktop.ini, @eaDir, .DS_Store, lost+found), and files beside the category folders (manifest.json). Names of
 // categories are compared in Unicode's composed form.
 namespace svnet::io {

@@ -14,14 +14,14 @@ std::string ignored_note(const ViewDataset& dataset) {
   std::string names;
   for (std::size_t i = 0; i < std::min(kShown, dataset.ignored.size()); ++i)
     names += (i == 0 ? "" : ", ") + printable(dataset.ignored[i]);
-  return joined(dataset.root.string(), ": ", dataset.ignored.size(), " files or folders that are no pictures of a ",
+  return joined(dataset.root.string(), ": ", dataset.ignored.size(), " files or folders that are no images of a ",
                 "category are ignored: ", names, dataset.ignored.size() > kShown ? ", ..." : "");
 }
 
 }  // namespace
 
 std::string exif_note(const std::string& first, int orientation, Index turned, Index total, const std::string& how) {
-  return joined(turned, " of ", total, total == 1 ? " picture has" : " pictures have",
+  return joined(turned, " of ", total, total == 1 ? " image has" : " images have",
                 " an EXIF orientation other than 1, which is ignored (", first, ": ", orientation, "); ", how,
                 " turns them as viewers do");
 }

@@ -41,20 +41,20 @@ GltfMaterial GltfMaterials::read(const Json& from) {
     material.colour[static_cast<Eigen::Index>(c)] = factor[c] > 0 ? static_cast<float>(std::min(factor[c], 1.0)) : 0.0f;
   material.second = material.colour;
   GltfMaterial result;
-  if (const auto picture = texture(colour_texture)) {
-    material.texture = Texture::picture;
-    material.picture = *picture;
+  if (const auto image = texture(colour_texture)) {
+    material.texture = Texture::image;
+    material.image = *image;
     material.wrap = wrap(file_.item("textures", *file_.index(colour_texture, "index")));
-    result.picture = coordinates(colour_texture);
+    result.image = coordinates(colour_texture);
   }
   if (!is_glossy && !has_extension("KHR_materials_unlit")) {
     material.metal_factor = static_cast<float>(file_.number(usual, "metallicFactor", 1));
     material.metal = material.metal_factor > 0.5f;
     const Json& metal_texture = file_.object(usual, "metallicRoughnessTexture");
     if (material.metal)  // less than half, whatever the texture says
-      if (const auto picture = texture(metal_texture)) {
-        material.metal_picture = *picture;
-        result.metal_picture = coordinates(metal_texture);
+      if (const auto image = texture(metal_texture)) {
+        material.metal_image = *image;
+        result.metal_image = coordinates(metal_texture);
       }
   }
   result.index = draft_.add(material);
@@ -70,7 +70,7 @@ std::optional<int> GltfMaterials::texture(const Json& from) {
   if (source) return image(*source);
   std::string extensions;
   for (const auto& [name, value] : file_.object(description, "extensions").items()) extensions += " " + printable(name);
-  file_.files().warn(joined("texture ", *number, " has no picture that is read",
+  file_.files().warn(joined("texture ", *number, " has no image that is read",
                             extensions.empty() ? "" : " (" + extensions.substr(1) + ")",
                             "; the object is rendered without it"));
   return std::nullopt;

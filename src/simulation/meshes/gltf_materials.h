@@ -17,7 +17,7 @@ struct TextureCoordinates {
 /// A material of the draft, and the coordinates of its textures, if it has them.
 struct GltfMaterial {
   int index = -1;
-  std::optional<TextureCoordinates> picture, metal_picture;
+  std::optional<TextureCoordinates> image, metal_image;
 };
 
 /// The materials of a glTF file, each read at its first use. The base colour is factor × texture (3.9.2), metalness

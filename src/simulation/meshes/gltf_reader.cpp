@@ -131,12 +131,12 @@ class GltfReader {
     if (!positions) return;
     const std::size_t count = positions->count();
     const GltfMaterial& material = materials_.of_primitive(primitive);
-    const std::vector<Vec2> uv = places(primitive, material.picture, count),
-                            metal_uv = places(primitive, material.metal_picture, count);
+    const std::vector<Vec2> uv = places(primitive, material.image, count),
+                            metal_uv = places(primitive, material.metal_image, count);
     // COLOR_0 is linear (3.7.2.1).
     const auto colours = attribute(primitive, "COLOR_0", 3, count, true);
-    const bool lost_picture = material.picture && uv.empty();
-    const int number = lost_picture ? without_picture(material.index) : material.index;
+    const bool lost_image = material.image && uv.empty();
+    const int number = lost_image ? without_image(material.index) : material.index;
 
     const auto base = static_cast<std::uint32_t>(draft_.points.size());
     check(draft_.points.size() + count < 0xffffffff, draft_.name(), ": has too many points");
@@ -161,12 +161,12 @@ class GltfReader {
       std::array<std::size_t, 3> triangle{mode == kFan ? corners[0] : corners[at], corners[at + 1], corners[at + 2]};
       if ((mode == kStrip && t % 2 == 1) != is_mirrored) std::swap(triangle[1], triangle[2]);
       std::array<std::uint32_t, 3> placed_corner{};
-      std::array<Vec2, 3> at_picture, at_metal;
+      std::array<Vec2, 3> at_image, at_metal;
       std::array<Vec3, 3> tints;
       for (std::size_t k = 0; k < 3; ++k) {
         const std::size_t i = triangle[k];
         placed_corner[k] = base + static_cast<std::uint32_t>(i);
-        if (!uv.empty()) at_picture[k] = uv[i];
+        if (!uv.empty()) at_image[k] = uv[i];
         if (!metal_uv.empty()) at_metal[k] = metal_uv[i];
         if (colours)
           for (std::size_t c = 0; c < 3; ++c) {
@@ -175,16 +175,16 @@ class GltfReader {
           }
       }
       draft_.add_triangle(placed_corner, number);
-      if (!uv.empty()) draft_.set_uv(at_picture);
+      if (!uv.empty()) draft_.set_uv(at_image);
       if (!metal_uv.empty()) draft_.set_metal_uv(at_metal);
       if (colours) draft_.set_tints(tints);
     }
   }
 
-  int without_picture(int index) {
+  int without_image(int index) {
     Material material = draft_.material(index);
     material.texture = Texture::plain;
-    material.picture = -1;
+    material.image = -1;
     return draft_.add(material);
   }
 

@@ -15,7 +15,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kMostTriangles = 5'000'000;
 
-/// Coordinates beyond this say nothing about a picture.
+/// Coordinates beyond this say nothing about an image.
 bool is_place(const Vec2& uv) { return uv.allFinite() && uv.cwiseAbs().maxCoeff() < 1e6f; }
 
 void set_last(std::vector<std::array<Vec2, 3>>& all, std::size_t count, std::array<Vec2, 3> uv) {
@@ -46,9 +46,9 @@ int MeshDraft::add(const Material& material) {
   return static_cast<int>(mesh_.materials.size()) - 1;
 }
 
-int MeshDraft::add(Image picture) {
-  mesh_.pictures.push_back(std::move(picture));
-  return static_cast<int>(mesh_.pictures.size()) - 1;
+int MeshDraft::add(Image image) {
+  mesh_.images.push_back(std::move(image));
+  return static_cast<int>(mesh_.images.size()) - 1;
 }
 
 void MeshDraft::add_triangle(const std::array<std::uint32_t, 3>& corner, int material) {

@@ -28,7 +28,7 @@ class MeshDraft {
 
   /// Indices of them.
   int add(const Material&);
-  int add(Image picture);
+  int add(Image image);
   const Material& material(int index) const { return mesh_.materials[static_cast<std::size_t>(index)]; }
 
   /// Throws Error for a corner that is no point, and beyond 5 million triangles.

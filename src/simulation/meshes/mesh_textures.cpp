@@ -17,7 +17,7 @@ std::optional<int> MeshTextures::file(const std::string& reference) {
   const auto [same, is_unread] = by_path_.try_emplace(path->string());
   if (is_unread) {
     try {
-      same->second = draft_.add(io::decode_texture(path->string(), io::picture_contents(*path)));
+      same->second = draft_.add(io::decode_texture(path->string(), io::image_contents(*path)));
     } catch (const Error& error) {
       fail(files_.name(), ": texture ", error.what());
     }

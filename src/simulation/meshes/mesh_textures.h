@@ -15,7 +15,7 @@ class MeshTextures {
  public:
   MeshTextures(const CollectionFiles& files, MeshDraft& draft) : files_(files), draft_(draft) {}
 
-  /// The index of the picture in a file, by the path that the mesh gives.
+  /// The index of the image in a file, by the path that the mesh gives.
   std::optional<int> file(const std::string& reference);
   /// Of one that is inside the mesh file under the name `reference`.
   int embedded(const std::string& reference, io::Bytes contents);

@@ -8,7 +8,7 @@
 
 namespace svnet::simulation {
 
-/// A picture that a material names, and the options before its name.
+/// An image that a material names, and the options before its name.
 struct MtlMap {
   std::string file;
   std::array<float, 2> scale{1, 1}, offset{0, 0};

@@ -135,8 +135,8 @@ class ObjReader {
     }
     if (material_ == nullptr) material_ = &used_material();
     const bool has_places = places_.size() == face_.size();
-    const bool has_picture = material_->has_texture && has_places;
-    const int number = has_picture ? material_->textured : material_->plain;
+    const bool has_image = material_->has_texture && has_places;
+    const int number = has_image ? material_->textured : material_->plain;
     for (const auto& triangle : polygon_triangles(polygon_)) {
       std::array<std::uint32_t, 3> corner{};
       std::array<Vec2, 3> uv, metal_uv;
@@ -147,13 +147,13 @@ class ObjReader {
         metal_uv[k] = moved(material_->from.metal_map, places_[triangle[k]]);
       }
       draft_.add_triangle(corner, number);
-      if (has_picture) {
+      if (has_image) {
         draft_.set_uv(uv);
       } else if (!tints_.empty()) {
         tints_.resize(draft_.points.size(), kNoColour);
         draft_.set_tints({tints_[corner[0]], tints_[corner[1]], tints_[corner[2]]});
       }
-      if (has_places && draft_.material(number).metal_picture >= 0) draft_.set_metal_uv(metal_uv);
+      if (has_places && draft_.material(number).metal_image >= 0) draft_.set_metal_uv(metal_uv);
     }
   }
 
@@ -200,16 +200,16 @@ class ObjReader {
     material.colour = material.second = has_tints ? Vec3(Vec3::Ones()) : used.from.diffuse.value_or(kNoColour);
     material.metal = used.from.metal > 0.5f;
     if (const auto& map = used.from.metal_map) {
-      if (const auto picture = textures_.file(map->file)) {
-        material.metal_picture = *picture;
+      if (const auto image = textures_.file(map->file)) {
+        material.metal_image = *image;
         material.metal_factor = used.from.metal > 0 ? used.from.metal : 1;
       }
     }
     used.plain = used.textured = draft_.add(material);
     if (const auto& map = used.from.diffuse_map) {
-      if (const auto picture = textures_.file(map->file)) {
-        material.texture = Texture::picture;
-        material.picture = *picture;
+      if (const auto image = textures_.file(map->file)) {
+        material.texture = Texture::image;
+        material.image = *image;
         material.colour = material.second = texture_factor(used.from);
         if (map->clamp) material.wrap = {Wrap::clamp, Wrap::clamp};
         used.textured = draft_.add(material);

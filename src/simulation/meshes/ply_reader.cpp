@@ -119,10 +119,10 @@ class PlyReader {
     const int key = texture < header_.textures.size() ? static_cast<int>(texture) : -1;
     if (const auto known = materials_.find(key); known != materials_.end()) return known->second;
     Material material;
-    std::optional<int> picture;
-    if (texture < header_.textures.size()) picture = textures_.file(header_.textures[texture]);
-    material.colour = material.second = picture || has_colours_ ? Vec3(Vec3::Ones()) : kNoColour;
-    if (picture) material.texture = Texture::picture, material.picture = *picture;
+    std::optional<int> image;
+    if (texture < header_.textures.size()) image = textures_.file(header_.textures[texture]);
+    material.colour = material.second = image || has_colours_ ? Vec3(Vec3::Ones()) : kNoColour;
+    if (image) material.texture = Texture::image, material.image = *image;
     return materials_[key] = draft_.add(material);
   }
 
@@ -151,12 +151,12 @@ class PlyReader {
       if (face.size() < 3) return;
       const std::vector<double>* places = wedges < 0 ? nullptr : &row[static_cast<std::size_t>(wedges)];
       const bool has_wedges = places != nullptr && places->size() >= 2 * face.size();
-      std::size_t picture = has_wedges || !uv_.empty() ? 0 : kNone;
-      if (picture == 0 && texture >= 0 && !row[static_cast<std::size_t>(texture)].empty()) {
+      std::size_t image = has_wedges || !uv_.empty() ? 0 : kNone;
+      if (image == 0 && texture >= 0 && !row[static_cast<std::size_t>(texture)].empty()) {
         const double number = row[static_cast<std::size_t>(texture)][0];
-        picture = number >= 0 && number < 1e6 ? static_cast<std::size_t>(number) : kNone;
+        image = number >= 0 && number < 1e6 ? static_cast<std::size_t>(number) : kNone;
       }
-      const int material = material_of(picture);
+      const int material = material_of(image);
       const Vec3 tint = colours.are_there() ? colours.of(row) : Vec3(Vec3::Ones());
       for (const auto& triangle : polygon_triangles(polygon)) {
         draft_.add_triangle({face[triangle[0]], face[triangle[1]], face[triangle[2]]}, material);
@@ -166,20 +166,20 @@ class PlyReader {
           const std::size_t local = triangle[k], point = face[local];
           if (has_wedges)
             uv[k] = Vec2(static_cast<float>((*places)[2 * local]), static_cast<float>((*places)[2 * local + 1]));
-          else if (picture != kNone)
+          else if (image != kNone)
             uv[k] = uv_[point];
           tints[k] = tints_.empty() ? tint : Vec3(tint.cwiseProduct(tints_[point]));
         }
-        dress(material, picture != kNone, uv, tints);
+        dress(material, image != kNone, uv, tints);
       }
     });
   }
 
   /// A texture counts alone: the colours beside it are those of the points before it was made.
   void dress(int material, bool has_uv, const std::array<Vec2, 3>& uv, const std::array<Vec3, 3>& tints) {
-    const bool has_picture = draft_.material(material).texture == Texture::picture;
-    if (has_picture && has_uv) draft_.set_uv(uv);
-    if (!has_picture && has_colours_) draft_.set_tints(tints);
+    const bool has_image = draft_.material(material).texture == Texture::image;
+    if (has_image && has_uv) draft_.set_uv(uv);
+    if (!has_image && has_colours_) draft_.set_tints(tints);
   }
 
   /// Strips one after the other with -1 between them; every second triangle is turned.

@@ -9,7 +9,7 @@
 // that the table of keys (config_table.cpp) gives to the stage. A result whose file has the fingerprint that is wanted
 // need not be made again. Keys of earlier stages count through the inputs.
 //
-// The keys of Stage::features name the pictures, the weights and the layer that features are made of. The fingerprint
+// The keys of Stage::features name the images, the weights and the layer that features are made of. The fingerprint
 // of features (features_origin in feature_extraction.h) covers what these contain, so that moving a folder changes
 // nothing. Hence the text of these keys is part of no fingerprint.
 

@@ -58,12 +58,12 @@ std::unique_ptr<ViewInputs> training_inputs(const Run& run, FeaturesStage& featu
     return std::make_unique<FeatureInputs>(run.dataset,
                                            features.features(run.config.sv_net.backbone, run.config.sv_net.layer));
   if (std::holds_alternative<InputLayer>(graph.node(from).layer))
-    return std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(), nullptr,
-                                           PictureInputs::Options{.orientations = orientations});
+    return std::make_unique<ImageInputs>(run.dataset, backbone.preprocessing(), nullptr,
+                                         ImageInputs::Options{.orientations = orientations});
   auto inputs =
-      std::make_unique<PictureInputs>(run.dataset, backbone.preprocessing(),
-                                      std::make_shared<Inference>(graph, backbone.parameters(), from, run.inference),
-                                      PictureInputs::Options{.orientations = orientations, .flat = all_frozen});
+      std::make_unique<ImageInputs>(run.dataset, backbone.preprocessing(),
+                                    std::make_shared<Inference>(graph, backbone.parameters(), from, run.inference),
+                                    ImageInputs::Options{.orientations = orientations, .flat = all_frozen});
   std::vector<Index> top_views;
   for (const auto& pose : run.dataset.poses)
     if (!run.held_out[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);
@@ -162,7 +162,7 @@ Model trained_model(const Run& run, FeaturesStage& features) {
   check(std::filesystem::exists(path), run.folder.string(), ": holds no trained model; run svnet-train first");
   Model model = io::read_model(path);
   check(model.input_fingerprint == wanted_fingerprint(run, features), path.string(),
-        ": was trained with another configuration, other pictures or other weights; run svnet-train with this "
+        ": was trained with another configuration, other images or other weights; run svnet-train with this "
         "configuration first");
   return model;
 }

@@ -1,4 +1,4 @@
-/* score_c MODEL PICTURE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best. */
+/* score_c MODEL IMAGE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <svnet/svnet.h>

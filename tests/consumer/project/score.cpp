@@ -1,4 +1,4 @@
-// score_cpp MODEL PICTURE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best.
+// score_cpp MODEL IMAGE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best.
 #include <cstdio>
 #include <cstdlib>
 #include <exception>

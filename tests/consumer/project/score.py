@@ -1,4 +1,4 @@
-"""score.py MODEL PICTURE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best."""
+"""score.py MODEL IMAGE.ppm THETA PHI [THETA PHI]...: prints one score per line, then the index of the best."""
 
 import sys
 
@@ -7,8 +7,8 @@ import numpy as np
 import svnet
 
 
-def main(model_file, picture_file, *angles):
-    with open(picture_file, "rb") as file:
+def main(model_file, image_file, *angles):
+    with open(image_file, "rb") as file:
         _, width, height, _ = file.readline().split()
         image = np.frombuffer(file.read(), np.uint8).reshape(int(height), int(width), 3)
     model = svnet.Model.load(model_file)

@@ -11,16 +11,16 @@
 namespace svnet::train {
 
 /// Images of a dataset in memory, at the size that a network takes, each with its class.
-class LabelledPictures {
+class LabelledImages {
  public:
-  struct Picture {
+  struct Example {
     Index view;   // of the dataset
     Index label;  // the class
   };
 
   /// Reads the images. Throws Error, with the name of the file, if one cannot be read.
-  LabelledPictures(const ViewDataset& dataset, std::vector<Picture> pictures,
-                   const models::Preprocessing& preprocessing, const Messages& messages, const std::string& task);
+  LabelledImages(const ViewDataset& dataset, std::vector<Example> examples, const models::Preprocessing& preprocessing,
+                 const Messages& messages, const std::string& task);
 
   Index size() const { return static_cast<Index>(images_.size()); }
 
