@@ -24,6 +24,7 @@ TEST_CASE("files that are something else are recognised") {
            {"\0\0\0\x18"
             "ftypheic"sv,
             "HEIC"},
+           {"\xff\xfev\0 \0"sv, "UTF-16"},
            {"\x80\x02}q"sv, "Python pickle"},
            {"\x40\0\0\0\0\0\0\0{\"a\":"sv, "safetensors"},
            {""sv, "empty"},

@@ -148,7 +148,8 @@ TEST_CASE("files that are not HDF5 are refused") {
   const TemporaryFolder folder;
   const std::string missing = (folder.path() / "missing.h5").string();
   CHECK_THROWS_WITH(Hdf5File::open(missing), missing + ": no such file");
-  CHECK_THROWS_WITH(Hdf5File::open(folder.path()), folder.path().string() + ": is not a regular file");
+  CHECK_THROWS_WITH(Hdf5File::open(folder.path()),
+                    folder.path().string() + ": is a folder, such as TensorFlow's SavedModel; expected an HDF5 file");
   for (const char* contents : {"", "PK\3\4 something else"})
     CHECK_THROWS_WITH(Hdf5File::open(folder.write("other.h5", contents)), Contains("other.h5: is not an HDF5 file"));
 }

@@ -1,6 +1,7 @@
 // PLY and STL: colours and coordinates where scanners and printers put them.
 #include <catch2/catch.hpp>
 
+#include "base/error.h"
 #include "glb_writer.h"
 #include "io/images/image_file.h"
 #include "mesh_look.h"
@@ -63,6 +64,12 @@ TEST_CASE("PLY: colours of faces and of vertices, as integers or floats, are sRG
   check_colour(read_mesh(folder.write("a.ply", ply("", "", kColours, "204 63 20"))), 204, 63, 20);
   check_colour(read_mesh(folder.write("b.ply", ply(kColours, "204 63 20", "", ""))), 204, 63, 20);
   check_colour(read_mesh(folder.write("c.ply", ply(floats, "0.8 0.2 0", "", ""))), 204, 51, 0);
+  for (const char* type : {"ushort", "int"}) {
+    const std::string words = joined("property ", type, " red\nproperty ", type, " green\nproperty ", type, " blue\n");
+    check_colour(read_mesh(folder.write("h.ply", ply(words, "204 63 20", "", ""))), 204, 63, 20);
+  }
+  const char* shorts = "property ushort red\nproperty ushort green\nproperty ushort blue\n";
+  check_colour(read_mesh(folder.write("i.ply", ply(shorts, "52428 257 0", "", ""))), 204, 1, 0);
   check_colour(read_mesh(folder.write("f.ply", ply(floats, "204 1 0", "", ""))), 204, 1, 0);
   check_colour(read_mesh(folder.write("g.ply", ply("", "", floats, "204 1 0"))), 204, 1, 0);
   check_colour(read_mesh(folder.write("d.ply", ply(kColours, "255 255 255", kColours, "204 63 20"))), 204, 63, 20);

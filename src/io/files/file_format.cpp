@@ -30,6 +30,8 @@ constexpr Signature kBinary[] = {
     {"II*\0"sv, "a TIFF image; convert it to PNG"},
     {"MM\0*"sv, "a TIFF image; convert it to PNG"},
     {"\x93NUMPY"sv, "a NumPy array (.npy)"},
+    {"\xff\xfe"sv, "text in UTF-16; save it as UTF-8"},
+    {"\xfe\xff"sv, "text in UTF-16; save it as UTF-8"},
     {"%PDF-"sv, "a PDF document"},
     {"\x80\x02"sv, "a Python pickle, such as PyTorch writes"},
     {"\x80\x04"sv, "a Python pickle, such as PyTorch writes"},

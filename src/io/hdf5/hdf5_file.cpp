@@ -41,6 +41,8 @@ std::uint64_t size_of_regular_file(const fs::path& path) {
   const fs::file_status status = fs::status(path, error);
   check(status.type() != fs::file_type::not_found, path.string(), ": no such file");
   check(!error, path.string(), ": cannot be read: ", error.message());
+  check(!fs::is_directory(status), path.string(),
+        ": is a folder, such as TensorFlow's SavedModel; expected an HDF5 file");
   check(fs::is_regular_file(status), path.string(), ": is not a regular file");
   const std::uintmax_t size = fs::file_size(path, error);
   check(!error, path.string(), ": cannot be read: ", error.message());

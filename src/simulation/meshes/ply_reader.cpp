@@ -11,12 +11,12 @@
 namespace svnet::simulation {
 namespace {
 
-/// Where the colours of an element stand. Integers fill their type's range, floats [0, 1], or [0, 255] if one is above
-/// 1; all are sRGB.
+/// Where the colours of an element stand; all are sRGB. Floats are in [0, 1], or in [0, 255] if one is above 1.
+/// Integers fill the range of their type, or only [0, 255] if none is above that.
 struct Colours {
   std::array<int, 3> at{-1, -1, -1};
   std::array<double, 3> most{1, 1, 1};
-  bool has_above_one = false;
+  double highest = 0;  // of the colours that look_at has seen
 
   explicit Colours(const PlyElement& element)
       : at{element.find({"red", "r", "diffuse_red"}), element.find({"green", "g", "diffuse_green"}),
@@ -32,19 +32,23 @@ struct Colours {
     return std::none_of(at.begin(), at.end(), [](int i) { return i < 0; });
   }
 
-  /// Sees to the range of floats. All rows of the element must be seen before `of`.
+  /// Chooses the range. All rows of the element must be seen before `of`.
   void look_at(const PlyRow& row) {
     for (const int property : at)
-      if (const auto& value = row[static_cast<std::size_t>(property)]; !value.empty() && value[0] > 1)
-        has_above_one = true;
+      if (const auto& value = row[static_cast<std::size_t>(property)]; !value.empty())
+        highest = std::max(highest, value[0]);
+  }
+
+  double white(std::size_t channel) const {
+    const bool are_levels = most[channel] == 1 ? highest > 1 : highest <= 255;
+    return are_levels ? 255 : most[channel];
   }
 
   Vec3 of(const PlyRow& row) const {
     Vec3 colour;
     for (std::size_t c = 0; c < 3; ++c) {
       const std::vector<double>& value = row[static_cast<std::size_t>(at[c])];
-      const double white = most[c] == 1 && has_above_one ? 255 : most[c];
-      const double share = value.empty() || !(value[0] > 0) ? 0.0 : std::min(value[0] / white, 1.0);
+      const double share = value.empty() || !(value[0] > 0) ? 0.0 : std::min(value[0] / white(c), 1.0);
       colour[static_cast<Eigen::Index>(c)] = linear_from_srgb(static_cast<std::uint8_t>(std::lround(255 * share)));
     }
     return colour;
@@ -74,7 +78,7 @@ class PlyReader {
   /// The colours of an element whose rows come next.
   Colours colours_of(const PlyElement& element) {
     Colours colours(element);
-    if (!colours.are_there() || colours.most[0] != 1) return colours;
+    if (!colours.are_there()) return colours;
     const PlyBody before = body_;
     PlyRow row;
     for (std::uint64_t i = 0; i < element.count && body_.take(element, row); ++i) colours.look_at(row);
