@@ -43,7 +43,7 @@ struct Mesh {
   std::vector<Vec3> points;
   std::vector<Triangle> triangles;
   std::vector<std::array<Vec3, 3>> normals;   // per corner of each triangle; shade_smoothly fills them
-  std::vector<std::array<Vec2, 3>> uv;        // as normals, or empty where no texture is an image
+  std::vector<std::array<Vec2, 3>> uv;        // as normals, or empty if no texture is an image
   std::vector<std::array<Vec2, 3>> metal_uv;  // as uv, of the metal images
   std::vector<std::array<Vec3, 3>> tints;     // as normals, or empty: linear colours that multiply the material's
   std::vector<Material> materials;
@@ -54,7 +54,7 @@ struct Mesh {
 /// by less than `crease_deg`.
 void shade_smoothly(Mesh&, float crease_deg = 40);
 
-/// The centre of mass of a solid of even density, overlaps counted twice; of its surface where the mesh encloses no
+/// The centre of mass of a solid of even density, overlaps counted twice; of its surface if the mesh encloses no
 /// volume.
 Eigen::Vector3d centre_of_mass(const Mesh&);
 

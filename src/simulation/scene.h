@@ -21,7 +21,7 @@ struct Shot {
   Index height = 0, width = 0;
   std::vector<Vec3> radiance;  // linear RGB, 1 is white
   DepthImage depth;
-  std::vector<std::uint8_t> mask;  // 255 where the pixel's centre sees the object, else 0
+  std::vector<std::uint8_t> mask;  // 255 if the pixel's centre sees the object, else 0
 };
 
 /// An object on a table, ray-traced with Embree. Without a mesh the table is empty; a mesh must outlive the scene.

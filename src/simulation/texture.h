@@ -3,7 +3,7 @@
 
 namespace svnet::simulation {
 
-/// The colour of a material at a point of the object's own frame, in metres. `uv` and `images` matter where the
+/// The colour of a material at a point of the object's own frame, in metres. `uv` and `images` matter if the
 /// texture is an image, which multiplies the material's colour; v = 0 is its lowest row.
 Vec3 surface_colour(const Material&, const Vec3& local_m, const Vec2& uv, const std::vector<Image>& images);
 

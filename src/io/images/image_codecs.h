@@ -64,7 +64,7 @@ bool has_bytes(Bytes file, std::size_t offset, std::string_view expected);
 
 /// Throws Error unless the image has at least one pixel and at most kMostPixels.
 void check_image_size(const std::string& name, Index height, Index width);
-/// A black image. Throws Error where check_image_size does.
+/// A black image. Throws Error as check_image_size does.
 Image image_of_size(const std::string& name, Index height, Index width);
 
 /// Throws the Error of a file that a codec could not decode, with the codec's `reason`.

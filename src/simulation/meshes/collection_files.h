@@ -16,7 +16,7 @@ class CollectionFiles {
   /// `collection` empty: the mesh's own folder.
   CollectionFiles(const std::filesystem::path& mesh, const std::filesystem::path& collection, Say warn);
 
-  /// None where there is no such file. `kind`, such as "texture", is for messages. Throws Error where the path leaves
+  /// None if there is no such file. `kind`, such as "texture", is for messages. Throws Error if the path leaves
   /// the collection. An absolute path, which was true on another machine, is looked up beside the mesh, with a warning.
   std::optional<std::filesystem::path> find(const char* kind, const std::string& reference) const;
 

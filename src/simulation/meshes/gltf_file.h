@@ -16,7 +16,7 @@ class GltfFile {
  public:
   using Json = nlohmann::json;
 
-  /// A GLB, or JSON. Throws Error, too, where the file requires an extension that is not read, by its name and with
+  /// A GLB, or JSON. Also throws Error if the file requires an extension that is not read, by its name and with
   /// what to do. `file` and `files` must live as long.
   GltfFile(std::string_view file, const CollectionFiles& files);
 
@@ -24,18 +24,18 @@ class GltfFile {
 
   /// Item `index` of an array at the root.
   const Json& item(const char* array, std::size_t index) const;
-  /// A member that is an index, or none where there is no such member.
+  /// A member that is an index, or none if there is no such member.
   std::optional<std::size_t> index(const Json& object, const char* member) const;
   double number(const Json& object, const char* member, double otherwise) const;
   /// `count` numbers, or `otherwise`.
   std::vector<double> numbers(const Json& object, const char* member, std::vector<double> otherwise) const;
   std::string text(const Json& object, const char* member) const;
-  /// A member that is an object; an empty one where there is none.
+  /// A member that is an object; an empty one if there is none.
   const Json& object(const Json& object, const char* member) const;
-  /// What the object has of an extension; an empty object where it has nothing.
+  /// What the object has of an extension; an empty object if it has nothing.
   const Json& extension(const Json& object, const char* name) const;
 
-  /// `width` numbers per element, in [0, 1] or [-1, 1] where they are normalised integers.
+  /// `width` numbers per element, in [0, 1] or [-1, 1] if they are normalised integers.
   struct Numbers {
     std::size_t width = 1;
     std::vector<double> values;

@@ -38,7 +38,7 @@ class MeshDraft {
   void set_metal_uv(std::array<Vec2, 3> uv);
   void set_tints(const std::array<Vec3, 3>& tints);
 
-  /// The mesh in metres, centred if it lies far from its origin, with normals. Throws Error where it has no triangles,
+  /// The mesh in metres, centred if it lies far from its origin, with normals. Throws Error if it has no triangles,
   /// a used point is not finite, or `metres_per_unit` throws for its length in units.
   Mesh finish(const std::function<double(double length)>& metres_per_unit) &&;
 
@@ -47,7 +47,7 @@ class MeshDraft {
   Mesh mesh_;
 };
 
-/// Triangles of a polygon of 3 or more corners, as indices of them: fans where it is convex, else by ear clipping in
+/// Triangles of a polygon of 3 or more corners, as indices of them: fans if it is convex, else by ear clipping in
 /// the plane of its mean normal.
 std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Eigen::Vector3d> corners);
 

@@ -20,7 +20,7 @@ struct MeshReading {
 };
 
 /// A mesh with its colours and textures (OBJ, PLY, STL, GLB or glTF) in metres, with normals; one that lies far from
-/// its origin is centred. Throws Error, one line that names the file, where it cannot be read, is cut off, requires an
+/// its origin is centred. Throws Error, one line that names the file, if it cannot be read, is cut off, requires an
 /// extension that is not read, holds no triangles or numbers that are not finite, is larger than 5 million triangles,
 /// or names a texture that cannot be decoded or lies outside the collection. A texture or material file that is missing
 /// is a warning.

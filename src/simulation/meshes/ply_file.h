@@ -34,7 +34,7 @@ struct PlyHeader {
   std::vector<std::string> textures;  // of "comment TextureFile NAME", as MeshLab writes them
 };
 
-/// Takes the header from the front of `file`. Throws Error that begins with `name` where it is not complete, or
+/// Takes the header from the front of `file`. Throws Error that begins with `name` if it is not complete, or
 /// promises more elements than bytes follow.
 PlyHeader take_ply_header(const std::string& name, std::string_view& file);
 
@@ -46,7 +46,7 @@ class PlyBody {
  public:
   PlyBody(PlyHeader::Format format, std::string_view body) : format_(format), rest_(body) {}
 
-  /// False where the element is not all there.
+  /// False if the element is not all there.
   bool take(const PlyElement& element, PlyRow& row);
 
  private:
