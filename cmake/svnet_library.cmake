@@ -7,7 +7,7 @@
 # that it includes. So no two files of a library may define the same name, not even in unnamed namespaces.
 #
 # COMPUTES: compiled with -O3, which vectorises plain loops and does not change a bit of their results. Other targets
-# only take longer to compile with it.
+# read files and options: the preset release compiles them with -O1, which takes a fifth less time than -O2.
 function(svnet_library name)
   cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(${name} STATIC ${ARG_SOURCES})
