@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "simulation/least_rotation.h"
 #include "simulation/sculptor.h"
 
 namespace svnet::simulation {
@@ -112,7 +113,7 @@ std::vector<std::array<std::uint32_t, 3>> polygon_triangles(std::span<const Vect
     for (std::size_t i = 1; i + 1 < count; ++i) triangles.push_back({at(0), at(i), at(i + 1)});
     return triangles;
   }
-  const Eigen::Quaterniond upright = Eigen::Quaterniond::FromTwoVectors(normal, Vector3d::UnitZ());
+  const Eigen::Quaterniond upright = least_rotation<double>(normal, Vector3d::UnitZ());
   Eigen::AlignedBox3d box;
   for (const Vector3d& corner : corners) box.extend(corner);
   Outline outline;
