@@ -22,6 +22,7 @@ const std::vector<Room> kRooms{
     {"mpi", {"base"}},
     {"semantics", {"base"}},
     {"view", {"base", "image"}},
+    {"frame", {"base", "image", "view"}},
     {"localise", {"base", "image", "view"}},
 
     {"nn/kernels", {"base"}},
@@ -34,23 +35,26 @@ const std::vector<Room> kRooms{
 
     {"models", {"base", "image", "nn/*"}},
     {"data", {"base"}},
-    {"data/model.h", {"base", "models", "nn/*"}},
+    {"data/model.h", {"base", "frame", "models", "nn/*"}},
 
     {"io/files", {"base"}},
     {"io/images", {"base", "image", "io/files"}},
     {"io/hdf5", {"base", "io/files"}},
     {"io/tensors", {"base", "nn/*", "io/files"}},
     {"io/keras", {"base", "nn/*", "models", "io/hdf5"}},
-    {"io/models", {"base", "image", "view", "nn/*", "models", "data/model.h", "io/files", "io/tensors", "io/keras"}},
+    {"io/models",
+     {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "io/files", "io/tensors", "io/keras"}},
     {"io/views", {"base", "view", "data", "io/files", "io/hdf5", "io/images"}},
 
-    {"predict", {"base", "image", "view", "nn/*", "models", "data", "data/model.h", "io/models", "io/tensors"}},
+    {"predict",
+     {"base", "image", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/models", "io/tensors"}},
     {"c_api", {"base", "image", "predict"}},
     {"simulation", {"base", "image", "view", "localise", "data", "io/*"}},
-    {"train/config", {"base", "semantics", "nn/*", "models"}},
-    {"train", {"base", "image", "semantics", "view", "nn/*", "models", "data", "io/*", "train/config"}},
+    {"train/config", {"base", "frame", "semantics", "nn/*", "models"}},
+    {"train",
+     {"base", "image", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "train/config"}},
     {"train/stages",
-     {"base", "semantics", "view", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
+     {"base", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
       "train"}},
 };
 

@@ -1,0 +1,52 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "base/enum_names.h"
+#include "frame/heights.h"
+#include "frame/object_axis.h"
+#include "view/camera_pose.h"
+
+// The inputs of a head for a camera pose (θ, φ), measured in the object's own frame. With
+//   x = (φ - 65) / 15, in degrees           α = θ - the axis' direction
+//   c = cos φ, and 0 if φ >= 89.5           e, s, f: the axis' elongation, skew, fill
+//   E = 2 (e - .5)   S = 10 s - .5   F = G = ln f + 2.5   T = height - .25   W = min(height / width, 2) - .5
+// the inputs are, in this order:
+//   phi      x, x² - 1, [φ >= 89.5], [φ < 10]
+//   axis     a1 = 10 s c cos α, a2 = 2 (1 - e) c cos 2α, a4 = 2 (1 - e) c cos 4α; a1 x, a2 x, a4 x;
+//            all 0 unless the axis is found; m = 1 unless it is found, else 0; m x
+//   shape    E x, S x, F x, 0 if the axis is unclear; each of a1, a2, a4 times each of E, S, F
+//   heights  T, W, G; T x, W x, G x; each of a1, a2, a4 times each of T, W; all 0 unless the heights are known;
+//            h = 1 unless they are known, else 0; h x
+// E, S, F, T, W and G are about 0 for a common object, and of size 1. Inputs that do not depend on the pose matter only
+// to heads that compare objects.
+namespace svnet::frame {
+
+/// Inputs of one group share a penalty in a head: phi and axis a small one, shape and heights a larger one.
+enum class InputGroup { phi, axis, shape, heights };
+
+struct PoseInputOptions {
+  bool axis = true;      ///< the group axis
+  bool shape = false;    ///< the group shape
+  bool heights = false;  ///< the group heights
+};
+
+constexpr auto enum_table(InputGroup) {
+  return std::to_array<EnumName<InputGroup>>({{InputGroup::phi, "phi"},
+                                              {InputGroup::axis, "axis"},
+                                              {InputGroup::shape, "shape"},
+                                              {InputGroup::heights, "heights"}});
+}
+
+/// The inputs in the order above. Two directions that differ by a whole turn have the same inputs, up to rounding.
+/// Throws Error for a pose that is out of range (view/camera_pose.h). Heights are not used without options.heights.
+std::vector<double> pose_inputs(const ObjectAxis&, const Heights&, const view::CameraPose&,
+                                const PoseInputOptions& = {});
+
+/// The name of each input, such as "a2*x": what the list above calls it.
+std::vector<std::string> pose_input_names(const PoseInputOptions& = {});
+
+/// The group of each input.
+std::vector<InputGroup> pose_input_groups(const PoseInputOptions& = {});
+
+}  // namespace svnet::frame
