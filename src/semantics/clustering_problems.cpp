@@ -1,6 +1,7 @@
 #include "semantics/clustering_problems.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <numeric>
@@ -27,6 +28,7 @@ ClusteringProblems::ClusteringProblems(std::span<const std::int64_t> category, s
   index_views(category, object, pose);
   exclude(options_.excluded_categories);
   check_counts();
+  weigh_views();
   measure();
 }
 
@@ -99,6 +101,37 @@ void ClusteringProblems::check_counts() const {
           " objects, min_objects is ", o.min_objects, "; exclude it or lower min_objects");
 }
 
+void ClusteringProblems::weigh_views() {
+  const ViewWeights& weights = options_.view_weights;
+  if (weights.empty()) return;
+  check(weights.size() == views_.size(), "[problems] ", weights.size(), " weights of ", views_.size(), " views");
+  for (std::size_t v = 0; v < weights.size(); ++v)
+    check(std::isfinite(weights[v]) && weights[v] >= 0, "[problems] the weight of view ", v, " is ", weights[v],
+          "; weights must be 0 or more");
+  draw_below_.assign(views_.size(), 0);
+  for (std::int32_t c : included_)
+    for (Index o = category_[c].first; o < category_[c].first + category_[c].count; ++o)
+      for (Index p = object_[o].first; p < object_[o].first + object_[o].count; ++p) {
+        const auto views = views_of_pose(p);
+        double highest = 0, sum = 0, so_far = 0;
+        for (std::int32_t view : views) highest = std::max(highest, weights[view]);
+        check(highest > 0, "[problems] all views of a pose have weight 0, view ", views.front(),
+              " among them; one must be above 0, or exclude the category ", category_name_[c]);
+        for (std::int32_t view : views) sum += weights[view] / highest;  // which cannot overflow
+        std::uint64_t* below = draw_below_.data() + pose_[p].first;
+        for (std::size_t i = 0; i < views.size(); ++i) {
+          so_far += weights[views[i]] / highest;
+          below[i] = static_cast<std::uint64_t>(std::llround(so_far / sum * 0x1p32));  // ends at 2^32: so_far == sum
+        }
+      }
+}
+
+/// The probability that the view at a place is drawn from its pose.
+double ClusteringProblems::share_by_weight(Index place) const {
+  const bool is_first = place == pose_[pose_of_view_[views_[place]]].first;
+  return static_cast<double>(draw_below_[place] - (is_first ? 0 : draw_below_[place - 1])) * 0x1p-32;
+}
+
 void ClusteringProblems::measure() {
   std::vector<Index> most;
   for (std::int32_t c : included_) most.push_back(most_objects(c));
@@ -113,7 +146,9 @@ void ClusteringProblems::measure() {
     for (Index o = category_[c].first; o < category_[c].first + category_[c].count; ++o)
       for (Index p = object_[o].first; p < object_[o].first + object_[o].count; ++p)
         for (std::int32_t view : views_of_pose(p)) {
-          inclusion_[view] = category_share * object_share / object_[o].count / pose_[p].count;
+          const double pose_share = category_share * object_share / object_[o].count;
+          inclusion_[view] =
+              draw_below_.empty() ? pose_share / pose_[p].count : pose_share * share_by_weight(place_[view]);
           may_have_partner_[view] = most_objects(c) >= 2;
         }
   }
@@ -164,7 +199,13 @@ void ClusteringProblems::draw_views(RandomStream& random, ClusteringProblem& pro
   problem.rows.clear();
   for (std::int32_t pose : problem.poses) {
     const Range views = pose_[pose];
-    problem.rows.push_back(views_[between(random, views.first, views.first + views.count - 1)]);
+    if (draw_below_.empty()) {
+      problem.rows.push_back(views_[between(random, views.first, views.first + views.count - 1)]);
+      continue;
+    }
+    const auto first = draw_below_.begin() + views.first;
+    const auto drawn = std::upper_bound(first, first + views.count, std::uint64_t{random.bits32()});
+    problem.rows.push_back(views_[drawn - draw_below_.begin()]);
   }
 }
 

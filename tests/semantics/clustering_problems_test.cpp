@@ -195,8 +195,110 @@ TEST_CASE("views may be in any order, and labels are only compared") {
   }
 }
 
+TEST_CASE("views are drawn in proportion to their weights, and poses as without weights") {
+  const auto dataset = SmallDataset::uneven();
+  const auto uniform = problems_of(dataset);
+  RandomStream random(58, Stream::shuffle);
+  ViewWeights weights;
+  for (Index v = 0; v < dataset.views(); ++v) {
+    const auto views = uniform.views_of_pose(uniform.pose_of_view()[v]);
+    weights.push_back(views.size() > 1 && v == views.back() ? 0 : 1e308 * random.uniform());  // a sum may overflow
+  }
+  const auto weighted = problems_of(dataset, {.view_weights = weights});
+  // The exact probabilities: those of the uniform problems, times how much likelier the weights make each view.
+  std::vector<double> gain(dataset.views());
+  for (Index p = 0; p < weighted.poses(); ++p) {
+    const auto views = weighted.views_of_pose(p);
+    double sum = 0;
+    for (auto v : views) sum += weights[v] / 1e308;
+    for (auto v : views) gain[v] = weights[v] / 1e308 / sum * static_cast<double>(views.size());
+  }
+  std::map<std::vector<std::int32_t>, std::size_t> number;
+  std::vector<double> probabilities, inclusion(dataset.views());
+  for (const auto& problem : all_problems(dataset, 3)) {
+    double probability = problem.probability;
+    for (auto row : problem.rows) probability *= gain[row];
+    for (auto row : problem.rows) inclusion[row] += probability;
+    if (probability == 0) continue;
+    auto rows = problem.rows;
+    std::sort(rows.begin(), rows.end());
+    number.emplace(rows, number.size());
+    probabilities.push_back(probability);
+  }
+  for (Index v = 0; v < dataset.views(); ++v) {
+    CHECK(weighted.inclusion_probability(v) == Approx(inclusion[v]).epsilon(1e-6));
+    CHECK((weighted.inclusion_probability(v) == 0) == (weights[v] == 0));
+  }
+
+  auto problem = weighted.new_problem(), same_poses = uniform.new_problem();
+  std::vector<double> counts(probabilities.size());
+  const int draws = 500000;
+  for (int i = 0; i < draws; ++i) {
+    weighted.draw(59, i, problem);
+    if (i < 100) {
+      uniform.draw(59, i, same_poses);
+      REQUIRE(problem.poses == same_poses.poses);
+    }
+    auto rows = problem.rows;
+    std::sort(rows.begin(), rows.end());
+    const auto found = number.find(rows);
+    REQUIRE(found != number.end());
+    ++counts[found->second];
+  }
+  CHECK(std::abs(chi_square_score(probabilities, counts, draws)) < 4);
+}
+
+TEST_CASE("equal weights draw as no weights do") {
+  const auto dataset = regular(4, 3);
+  const auto equal = problems_of(dataset, {.view_weights = ViewWeights(dataset.views(), 0.3)}),
+             uniform = problems_of(dataset);
+  auto problem = equal.new_problem();
+  std::vector<double> counts(dataset.views()), probabilities;
+  double items = 0;
+  for (int i = 0; i < 100000; ++i) {
+    equal.draw(60, i, problem);
+    items += static_cast<double>(problem.rows.size());
+    for (auto row : problem.rows) ++counts[row];
+  }
+  double sum = 0;
+  for (Index v = 0; v < dataset.views(); ++v) sum += uniform.inclusion_probability(v);
+  for (Index v = 0; v < dataset.views(); ++v) {
+    CHECK(equal.inclusion_probability(v) == Approx(uniform.inclusion_probability(v)).epsilon(1e-8));
+    probabilities.push_back(uniform.inclusion_probability(v) / sum);
+  }
+  CHECK(std::abs(chi_square_score(probabilities, counts, items)) < 4);
+}
+
+TEST_CASE("weights of excluded categories are ignored") {
+  const auto dataset = regular(4, 2);
+  ViewWeights weights(dataset.views(), 1.0);
+  for (Index v = 0; v < dataset.views(); ++v)
+    if (dataset.category[v] == 2) weights[v] = 0;
+  const auto problems = problems_of(dataset, {.excluded_categories = {2}, .view_weights = weights});
+  for (Index v = 0; v < dataset.views(); ++v)
+    CHECK((problems.inclusion_probability(v) == 0) == (dataset.category[v] == 2));
+  CHECK_THROWS_WITH(problems_of(dataset, {.view_weights = weights}),
+                    "[problems] all views of a pose have weight 0, view 24 among them; one must be above 0, or exclude "
+                    "the category 2");
+}
+
+TEST_CASE("problems refuse weights that are no probabilities") {
+  const auto dataset = regular(3, 2);
+  ViewWeights weights(dataset.views(), 1.0);
+  weights.pop_back();
+  CHECK_THROWS_WITH(problems_of(dataset, {.view_weights = weights}), "[problems] 35 weights of 36 views");
+  weights.push_back(-1);
+  CHECK_THROWS_WITH(problems_of(dataset, {.view_weights = weights}),
+                    "[problems] the weight of view 35 is -1; weights must be 0 or more");
+  weights.back() = std::nan("");
+  CHECK_THROWS_WITH(problems_of(dataset, {.view_weights = weights}),
+                    "[problems] the weight of view 35 is nan; weights must be 0 or more");
+}
+
 TEST_CASE("drawing allocates nothing") {
-  const auto problems = problems_of(regular(8, 5));
+  const auto dataset = regular(8, 5);
+  const auto problems =
+      problems_of(dataset, {.view_weights = GENERATE_COPY(ViewWeights{}, ViewWeights(dataset.views(), 1.0))});
   auto problem = problems.new_problem();
   const std::size_t before = allocations();
   for (int i = 0; i < 2000; ++i) problems.draw(57, i, problem);

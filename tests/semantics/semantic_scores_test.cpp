@@ -114,6 +114,60 @@ TEST_CASE("scores have the same bits for any number of threads") {
     }
 }
 
+TEST_CASE("scores by weights have the same bits for any number of threads") {
+  const Fixture f;
+  ViewWeights weights;
+  for (Index v = 0; v < f.dataset.views(); ++v) weights.push_back(static_cast<double>(1 + v % 3));
+  const auto problems = f.problems({.view_weights = weights});
+  for (const ScoreOptions& options :
+       {ScoreOptions{.problems = 5000, .seed = 75}, ScoreOptions{.min_samples = 3000, .seed = 75}}) {
+    Parallel one(1), three(3);
+    const auto expected = semantic_scores(f.distances, problems, options, one);
+    check_same(semantic_scores(f.distances, problems, options, three), expected);
+  }
+}
+
+TEST_CASE("scores by weights are the expectations over problems by weights") {
+  const Fixture f;
+  ViewWeights weights;
+  for (Index v = 0; v < f.dataset.views(); ++v) weights.push_back(v % 3 == 0 ? 0.05 : 1);
+  const auto problems = f.problems({.view_weights = weights});
+  auto everything = all_problems(f.dataset, 3);
+  for (auto& problem : everything)
+    for (auto row : problem.rows) {
+      const auto views = problems.views_of_pose(problems.pose_of_view()[row]);
+      double sum = 0;
+      for (auto v : views) sum += weights[v];
+      problem.probability *= weights[row] / sum * static_cast<double>(views.size());
+    }
+  const ExactScores exact = exact_scores(f.distances, everything, Singletons::zero);
+  const auto scores = semantic_scores(f.distances, problems, {.problems = 200000, .seed = 76}, Parallel::shared());
+  for (Index v = 0; v < f.dataset.views(); ++v) {
+    INFO("view " << v);
+    CHECK(std::abs(scores.individual[v] - exact.individual[v]) <= 4 * scores.standard_error[v]);
+    CHECK(problems.inclusion_probability(v) == Approx(exact.inclusion[v]).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("the stop rules leave out views that cannot be drawn") {
+  const Fixture f;
+  ViewWeights weights(f.dataset.views(), 1.0);
+  Index never = 0;  // a view that is not the only one of its pose
+  while (f.problems().views_of_pose(f.problems().pose_of_view()[never]).size() < 2) ++never;
+  weights[never] = 0;
+  const auto problems = f.problems({.view_weights = weights});
+  for (const ScoreOptions& options :
+       {ScoreOptions{.min_samples = 3000, .seed = 77}, ScoreOptions{.target_error = 0.01, .seed = 77}}) {
+    const auto scores = semantic_scores(f.distances, problems, options, Parallel::shared());
+    for (Index v = 0; v < f.dataset.views(); ++v) {
+      INFO("view " << v);
+      CHECK((scores.count[v] == 0) == (v == never));
+      CHECK(std::isnan(scores.individual[v]) == (v == never));
+      if (v != never) CHECK(scores.count[v] >= std::max<std::uint64_t>(options.min_samples, 100));
+    }
+  }
+}
+
 TEST_CASE("scores stop once every view has its samples, at the end of a block") {
   const Fixture f;
   const auto problems = f.problems({.excluded_categories = {4}});
