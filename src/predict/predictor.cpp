@@ -4,6 +4,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "frame/top_frame.h"
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
@@ -13,23 +14,36 @@ Predictor::Predictor(const std::filesystem::path& model_file, const InferenceOpt
     : Predictor(io::read_model(model_file), options) {}
 
 Predictor::Predictor(const Model& model, const InferenceOptions& options)
-    : preprocessing_(model.preprocessing),
-      symmetries_(model.symmetries),
-      backbone_(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
-                options),
-      head_(model, options) {}
+    : preprocessing_(model.preprocessing), symmetries_(model.symmetries), depth_(model.depth), head_(model, options) {
+  if (model.frame == frame::FrameChoice::camera)
+    backbone_.emplace(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
+                      options);
+}
 
-Tensor Predictor::embed(const Image& top) const {
+Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {
   check(top.height > 0 && top.width > 0 && static_cast<Index>(top.rgb.size()) == top.height * top.width * 3,
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
+  check(!uses_depth() || depth != nullptr,
+        "[predict] the model was trained with depth; give the depth image of the top view too");
+  return backbone_ ? embedding(top) : measured_frame(top, uses_depth() ? depth : nullptr);
+}
+
+Tensor Predictor::embedding(const Image& top) const {
   Tensor batch = Tensor::empty({symmetries_, preprocessing_.height, preprocessing_.width, 3});
   prepare(preprocessing_, top, batch.data<float>());
   for (int symmetry = 1; symmetry < symmetries_; ++symmetry)
     view::apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
                          batch.data<float>() + symmetry * preprocessing_.size());
-  const Tensor features = backbone_.run({batch});
+  const Tensor features = backbone_->run({batch});
   check_finite(features, "feature");
   return features.reshaped({1, feature_count()});
+}
+
+Tensor Predictor::measured_frame(const Image& top, const DepthImage* depth) const {
+  const frame::TopFrameValues values = frame::to_values(frame::top_frame(top, depth));
+  Tensor features = Tensor::empty({1, feature_count()});
+  std::copy(values.begin(), values.end(), features.data<float>());
+  return features;
 }
 
 std::vector<float> Predictor::scores(const Tensor& features, std::span<const view::CameraPose> poses) const {

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "image/depth_image.h"
 #include "image/image.h"
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
@@ -12,7 +14,7 @@
 namespace svnet::predict {
 
 /// A trained model for inference. A top image becomes features once; features and a camera pose become a score in
-/// [0, 1]. Thread-safe.
+/// [0, 1]. In the frame `axis` there is no backbone, and the features are frame::TopFrameValues. Thread-safe.
 class Predictor {
  public:
   /// Throws Error that names the file and says what is wrong.
@@ -24,15 +26,23 @@ class Predictor {
 
   /// Features (1, D) of a top image of any size. Throws Error for an image without pixels, if rgb does not have height
   /// x width x 3 elements, and if a feature is not finite.
-  Tensor embed(const Image& top) const;
+  /// `depth` is the depth image of the top view, which only a model that uses_depth() reads and needs: throws Error
+  /// without it.
+  Tensor embed(const Image& top, const DepthImage* depth = nullptr) const;
+
+  bool uses_depth() const { return depth_ != frame::DepthChoice::none; }
 
   /// ScoreHead::scores of features that embed has returned.
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
  private:
+  Tensor embedding(const Image& top) const;
+  Tensor measured_frame(const Image& top, const DepthImage* depth) const;
+
   models::Preprocessing preprocessing_;
   int symmetries_;
-  Inference backbone_;
+  frame::DepthChoice depth_;
+  std::optional<Inference> backbone_;  // of the frame `camera`
   ScoreHead head_;
 };
 

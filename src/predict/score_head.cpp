@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "frame/top_frame.h"
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
@@ -15,12 +16,25 @@ namespace {
 /// small.
 constexpr Index kPosesAtOnce = 32;
 
+/// The number of features that the head of a model takes.
+Index feature_count_of(const Model& model) {
+  switch (model.frame) {
+    case frame::FrameChoice::camera:
+      return model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape);
+    case frame::FrameChoice::axis:
+      return frame::kTopFrameSize;
+  }
+  fail("[predict] the model has an unknown frame");
+}
+
 }  // namespace
 
 ScoreHead::ScoreHead(const Model& model, const InferenceOptions& options)
-    : angles_(model.angles),
+    : frame_(model.frame),
+      depth_(model.depth),
+      angles_(model.angles),
       symmetries_(model.symmetries),
-      feature_count_(model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape)),
+      feature_count_(feature_count_of(model)),
       network_(model.head, model.head_parameters, model.head.output(), options) {}
 
 std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const CameraPose> poses) const {
@@ -32,6 +46,38 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
     const std::string problem = pose_problem(poses[i]);
     check(problem.empty(), "[predict] pose ", i, ": ", problem);
   }
+  switch (frame_) {
+    case frame::FrameChoice::camera:
+      return camera_scores(features, poses);
+    case frame::FrameChoice::axis:
+      return axis_scores(features, poses);
+  }
+  return {};
+}
+
+std::vector<float> ScoreHead::axis_scores(const Tensor& features, std::span<const CameraPose> poses) const {
+  const frame::TopFrame top =
+      frame::from_values(std::span<const float, frame::kTopFrameSize>(features.data<float>(), frame::kTopFrameSize));
+  const frame::PoseInputOptions options = frame::input_options(depth_);
+  const Index inputs = frame::pose_input_count(options), count = static_cast<Index>(poses.size());
+  std::vector<float> result;
+  for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
+    const Index size = std::min(kPosesAtOnce, count - begin);
+    Tensor batch = Tensor::empty({size, inputs});
+    for (Index i = 0; i < size; ++i) {
+      const auto values =
+          frame::pose_inputs(top.axis, top.heights, poses[static_cast<std::size_t>(begin + i)], options);
+      std::transform(values.begin(), values.end(), batch.data<float>() + i * inputs,
+                     [](double value) { return static_cast<float>(value); });
+    }
+    const Tensor values = network_.run({batch});
+    check_finite(values, "score", static_cast<std::size_t>(begin));
+    result.insert(result.end(), values.data<float>(), values.data<float>() + size);
+  }
+  return result;
+}
+
+std::vector<float> ScoreHead::camera_scores(const Tensor& features, std::span<const CameraPose> poses) const {
   const Index count = static_cast<Index>(poses.size()), angles = angle_count(angles_);
   const Index dimension = feature_count_ / symmetries_;
   std::vector<float> result(poses.size(), 0.0f);

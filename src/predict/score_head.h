@@ -8,7 +8,8 @@
 
 namespace svnet::predict {
 
-/// A trained model without its backbone: it scores camera poses from features. Thread-safe.
+/// A trained model without its backbone: it scores camera poses from features. In the frame `axis` the features are
+/// frame::TopFrameValues. Thread-safe.
 class ScoreHead {
  public:
   explicit ScoreHead(const Model& model, const InferenceOptions& options = {});
@@ -22,6 +23,11 @@ class ScoreHead {
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
  private:
+  std::vector<float> camera_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
+  std::vector<float> axis_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
+
+  frame::FrameChoice frame_;
+  frame::DepthChoice depth_;
   models::AngleEncoding angles_;
   int symmetries_;
   Index feature_count_;

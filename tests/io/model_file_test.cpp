@@ -3,13 +3,16 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <nlohmann/json.hpp>
 
+#include "frame/top_frame.h"
 #include "io/models/checkpoint.h"
 #include "io/models/graph_json.h"
 #include "io/tensors/safetensors.h"
 #include "io/tensors/tensor_file.h"
 #include "models/backbone.h"
+#include "models/pose_head.h"
 #include "nn/graph/run.h"
 #include "temporary_folder.h"
 
@@ -32,6 +35,27 @@ Model small_model() {
               .input_fingerprint = "abc"};
   model.head_parameters = initial_parameters(model.head, 4);
   return model;
+}
+
+Model axis_model(frame::DepthChoice depth) {
+  Model model;
+  model.frame = frame::FrameChoice::axis;
+  model.depth = depth;
+  model.head = linear_head(frame::pose_input_count(frame::input_options(depth)));
+  model.head_parameters = initial_parameters(model.head, 4);
+  model.input_fingerprint = "abc";
+  return model;
+}
+
+/// Writes the model of `from` to `to` with a description that `change` has changed.
+void write_changed(const std::filesystem::path& from, const std::filesystem::path& to,
+                   const std::function<void(nlohmann::json&)>& change) {
+  const SafetensorsFile good(from);
+  auto metadata = good.metadata();
+  nlohmann::json description = nlohmann::json::parse(metadata.at("svnet"));
+  change(description);
+  metadata.at("svnet") = description.dump();
+  write_safetensors(to, good.tensors(), metadata);
 }
 
 bool equal(const Tensor& a, const Tensor& b) {
@@ -78,6 +102,58 @@ TEST_CASE("a model file says the number of orientations of the top image if it i
   CHECK_THROWS_WITH(written(8, 64), path.string() + ": images of 64x96 cannot be turned; only square ones can");
   CHECK_THROWS_WITH(written(1, 64),
                     path.string() + ": the backbone does not take images of 64x96, as preprocessing makes them");
+}
+
+TEST_CASE("a model in the frame axis is read with the same bits") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  for (const frame::DepthChoice depth : {frame::DepthChoice::none, frame::DepthChoice::heights}) {
+    const Model model = axis_model(depth);
+    write_model(path, model);
+    const Model back = read_model(path);
+    CHECK(back.frame == frame::FrameChoice::axis);
+    CHECK(back.depth == depth);
+    CHECK(back.backbone.empty());
+    CHECK(back.backbone_graph.nodes().empty());
+    CHECK(back.input_fingerprint == "abc");
+    for (const auto& [name, value] : model.head_parameters.items()) CHECK(equal(back.head_parameters.at(name), value));
+    const auto description = TensorFile::read(path, "model").description();
+    CHECK(description.at("frame") == nlohmann::json{{"kind", "axis"}, {"depth", name_of(depth)}});
+    for (const char* member : {"backbone", "preprocessing", "angles"}) CHECK_FALSE(description.contains(member));
+  }
+}
+
+TEST_CASE("a damaged model in the frame axis is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors", bad = temporary.path() / "bad.safetensors";
+  Model model = axis_model(frame::DepthChoice::none);
+  model.depth = frame::DepthChoice::heights;  // which has more inputs
+  write_model(path, model);
+  CHECK_THROWS_WITH(read_model(path), Catch::StartsWith(path.string() + ": the head does not take the ") &&
+                                          Catch::EndsWith(" inputs of a camera pose, or gives more than one score"));
+  write_model(path, axis_model(frame::DepthChoice::none));
+  write_changed(path, bad, [](nlohmann::json& description) { description["frame"]["kind"] = "axes"; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: kind is 'axes', which this version does not know");
+  write_changed(path, bad, [](nlohmann::json& description) { description["frame"].erase("depth"); });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("depth"));
+  write_changed(path, bad, [](nlohmann::json& description) { description["frame"] = "axis"; });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()));
+  write_changed(path, bad, [](nlohmann::json& description) { description["frame"]["kind"] = "camera"; });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()));
+  write_changed(path, bad, [](nlohmann::json& description) { description.erase("frame"); });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
+}
+
+TEST_CASE("the file of a model in the frame camera does not say a frame") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  write_model(path, small_model());
+  const auto description = TensorFile::read(path, "model").description();
+  CHECK_FALSE(description.contains("frame"));
+  std::vector<std::string> members;
+  for (const auto& [key, value] : description.items()) members.push_back(key);
+  CHECK(members ==
+        std::vector<std::string>{"angles", "backbone", "format", "head", "input_fingerprint", "kind", "preprocessing"});
 }
 
 TEST_CASE("every kind of layer survives JSON") {

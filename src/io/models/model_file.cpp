@@ -2,11 +2,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "frame/top_frame.h"
 #include "io/models/graph_json.h"
 #include "io/tensors/tensor_file.h"
 #include "view/symmetry.h"
 
 namespace svnet::io {
+using frame::FrameChoice;
 using models::Preprocessing;
 
 namespace {
@@ -38,7 +40,7 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
       file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
 }
 
-void check_fits_together(const Model& model) {
+void check_camera_model(const Model& model) {
   check(model.symmetries == 1 || model.symmetries == view::kSymmetries, "there are ", model.symmetries,
         " orientations, expected 1 or ", view::kSymmetries);
   const Preprocessing& p = model.preprocessing;
@@ -56,18 +58,57 @@ void check_fits_together(const Model& model) {
         " features and the angles, or gives more than one score");
 }
 
+void check_axis_model(const Model& model) {
+  const Graph& head = model.head;
+  const Index inputs = frame::pose_input_count(frame::input_options(model.depth));
+  check(head.inputs().size() == 1 && head.node(head.inputs()[0]).shape == Shape{inputs} &&
+            head.node(head.output()).shape == Shape{1},
+        "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
+}
+
+/// The description of what the head sees.
+json input_to_json(const Model& model, const Graph& backbone) {
+  switch (model.frame) {
+    case FrameChoice::camera:
+      return {{"backbone",
+               {{"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}}},
+              {"preprocessing", preprocessing_to_json(model.preprocessing)},
+              {"angles",
+               {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}}};
+    case FrameChoice::axis:
+      return {{"frame", {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}}}};
+  }
+  fail("[model] there is no such frame");
+}
+
+void read_camera_input(const json& input, Model& model) {
+  const json& backbone = input.at("backbone");
+  model.backbone = backbone.at("name").get<std::string>();
+  model.backbone_output = backbone.at("output").get<std::string>();
+  model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
+  model.preprocessing = preprocessing_from_json(input.at("preprocessing"));
+  model.angles = models::angle_encoding_named(input.at("angles").at("encoding").get<std::string>());
+}
+
+template <class Enum>
+Enum choice_from_json(const json& from, const char* key) {
+  const auto name = from.at(key).get<std::string>();
+  const auto found = find_enum<Enum>(name);
+  check(found.has_value(), "frame: ", key, " is '", name, "', which this version does not know");
+  return *found;
+}
+
 }  // namespace
 
 void write_model(const std::filesystem::path& path, const Model& model) {
-  const Graph backbone = model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output));
+  const bool has_backbone = model.frame == FrameChoice::camera;
+  const Graph backbone =
+      has_backbone ? model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output)) : Graph();
   TensorFile file;
-  file.description() = {
-      {"kind", "model"},
-      {"backbone", {{"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}}},
-      {"preprocessing", preprocessing_to_json(model.preprocessing)},
-      {"head", {{"graph", graph_to_json(model.head)}}},
-      {"angles", {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}},
-      {"input_fingerprint", model.input_fingerprint}};
+  file.description() = input_to_json(model, backbone);
+  file.description()["kind"] = "model";
+  file.description()["head"] = {{"graph", graph_to_json(model.head)}};
+  file.description()["input_fingerprint"] = model.input_fingerprint;
   if (model.symmetries != 1) file.description()["head"]["orientations"] = model.symmetries;
   add_parameters(file, "backbone", backbone, model.backbone_parameters);
   add_parameters(file, "head", model.head, model.head_parameters);
@@ -77,19 +118,30 @@ void write_model(const std::filesystem::path& path, const Model& model) {
 namespace {
 
 Model model_of(const TensorFile& file) {
-  const json backbone = file.get<json>("backbone"), head = file.get<json>("head"), angles = file.get<json>("angles"),
-             preprocessing = file.get<json>("preprocessing");
   Model model;
   model.input_fingerprint = file.get<std::string>("input_fingerprint");
+  const json head = file.get<json>("head");
+  json input;  // what the head sees
+  if (file.description().contains("frame"))
+    input["frame"] = file.get<json>("frame");
+  else
+    for (const char* member : {"backbone", "angles", "preprocessing"}) input[member] = file.get<json>(member);
   try {
-    model.backbone = backbone.at("name").get<std::string>();
-    model.backbone_output = backbone.at("output").get<std::string>();
-    model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
-    model.preprocessing = preprocessing_from_json(preprocessing);
+    if (input.contains("frame")) {
+      model.frame = choice_from_json<FrameChoice>(input["frame"], "kind");
+      model.depth = choice_from_json<frame::DepthChoice>(input["frame"], "depth");
+    }
     model.head = graph_from_json(head.at("graph"), "head");
-    model.angles = models::angle_encoding_named(angles.at("encoding").get<std::string>());
     model.symmetries = head.value("orientations", 1);
-    check_fits_together(model);
+    switch (model.frame) {
+      case FrameChoice::camera:
+        read_camera_input(input, model);
+        check_camera_model(model);
+        break;
+      case FrameChoice::axis:
+        check_axis_model(model);
+        break;
+    }
   } catch (const Error& error) {
     fail(file.path(), ": ", error.what());
   } catch (const json::exception& error) {

@@ -26,6 +26,7 @@ class TensorFile {
   ~TensorFile();
 
   nlohmann::json& description() { return *description_; }
+  const nlohmann::json& description() const { return *description_; }
   /// A member of the description. Throws Error that names file and member if it is missing or of another type.
   template <class T>
   T get(const std::string& member) const;
