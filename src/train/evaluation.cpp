@@ -39,8 +39,72 @@ struct RunningMean {
     mean += before / ++count;
     squares += before * (value - mean);
   }
-  Mean result() const { return {mean, count > 1 ? std::sqrt(squares / (count - 1) / count) : std::nan("")}; }
+  Mean result() const { return {mean, count > 1 ? std::sqrt(squares / (count - 1) / count) : std::nan(""), {}}; }
 };
+
+std::vector<std::int32_t> categories_of(const ViewDataset& dataset, const ClusteringProblem& problem) {
+  std::vector<std::int32_t> categories;
+  for (const std::int32_t pose : problem.poses) {
+    const auto category = static_cast<std::int32_t>(dataset.poses[static_cast<std::size_t>(pose)].category);
+    if (std::find(categories.begin(), categories.end(), category) == categories.end()) categories.push_back(category);
+  }
+  return categories;
+}
+
+/// All selectors minus the selector `baseline`, as EvaluationTable has them.
+std::vector<std::vector<PerMetric<Difference>>> differences_from(std::size_t baseline, const ProblemValues& values,
+                                                                 std::size_t pipelines, std::size_t selectors,
+                                                                 const EvaluationOptions& options, Parallel& parallel) {
+  const std::size_t metrics = kMetrics.size(), rows = pipelines + (pipelines > 1 ? 1 : 0);
+  const std::size_t from = pipelines * selectors * metrics, to = rows * selectors * metrics;
+  ProblemValues differences{.columns = static_cast<Index>(to),
+                            .values = std::vector<double>(static_cast<std::size_t>(values.problems()) * to),
+                            .categories = values.categories,
+                            .first_category = values.first_category};
+  std::vector<RunningMean> means(to);
+  for (std::size_t problem = 0; problem < static_cast<std::size_t>(values.problems()); ++problem) {
+    const double* value = values.values.data() + problem * from;
+    double* difference = differences.values.data() + problem * to;
+    for (std::size_t p = 0; p < pipelines; ++p)
+      for (std::size_t s = 0; s < selectors; ++s)
+        for (std::size_t m = 0; m < metrics; ++m) {
+          const double ahead =
+              value[(p * selectors + s) * metrics + m] - value[(p * selectors + baseline) * metrics + m];
+          difference[(p * selectors + s) * metrics + m] = ahead;
+          if (rows > pipelines)
+            difference[(pipelines * selectors + s) * metrics + m] += ahead / static_cast<double>(pipelines);
+        }
+    for (std::size_t c = 0; c < to; ++c) means[c].add(difference[c]);
+  }
+  const std::vector<Interval> intervals = category_intervals(differences, {.seed = options.seed}, parallel);
+  std::vector<std::vector<PerMetric<Difference>>> table(rows, std::vector<PerMetric<Difference>>(selectors));
+  for (std::size_t c = 0; c < to; ++c)
+    table[c / metrics / selectors][c / metrics % selectors][c % metrics] = {means[c].mean, intervals[c]};
+  return table;
+}
+
+EvaluationTable table_of(const ProblemValues& values, const std::vector<EvaluationPipeline>& pipelines,
+                         const std::vector<Selector>& selectors, const EvaluationOptions& options, Parallel& parallel) {
+  EvaluationTable table;
+  table.problems = options.problems;
+  for (const auto& selector : selectors) table.selectors.push_back(selector.name);
+  for (const auto& pipeline : pipelines) table.pipelines.push_back(pipeline.name);
+  std::vector<RunningMean> means(static_cast<std::size_t>(values.columns));
+  for (std::size_t i = 0; i < values.values.size(); ++i) means[i % means.size()].add(values.values[i]);
+  const std::vector<Interval> intervals = category_intervals(values, {.seed = options.seed}, parallel);
+  const std::size_t metrics = kMetrics.size();
+  table.cells.assign(pipelines.size(), std::vector<PerMetric<Mean>>(selectors.size()));
+  for (std::size_t c = 0; c < means.size(); ++c) {
+    Mean& cell = table.cells[c / metrics / selectors.size()][c / metrics % selectors.size()][c % metrics];
+    cell = means[c].result();
+    cell.interval = intervals[c];
+  }
+  for (std::size_t s = 0; s < selectors.size(); ++s)
+    if (std::find(options.baselines.begin(), options.baselines.end(), selectors[s].name) != options.baselines.end())
+      table.differences[selectors[s].name] =
+          differences_from(s, values, pipelines.size(), selectors.size(), options, parallel);
+  return table;
+}
 
 }  // namespace
 
@@ -59,10 +123,13 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
     workers.push_back(std::move(worker));
   }
 
-  const std::size_t stride = pipelines.size() * selectors.size();
+  const std::size_t stride = pipelines.size() * selectors.size() * kMetrics.size();
+  ProblemValues values{.columns = static_cast<Index>(stride),
+                       .values = std::vector<double>(options.problems * stride),
+                       .categories = {},
+                       .first_category = {0}};
   constexpr Index kBlock = 256;
-  std::vector<PerMetric<double>> values(kBlock * stride);  // of one block of problems
-  std::vector<PerMetric<RunningMean>> means(stride);
+  std::vector<std::vector<std::int32_t>> categories(kBlock);  // of each problem of a block
   Progress progress(messages, task, static_cast<Index>(options.problems));
   for (Index block = 0; block < static_cast<Index>(options.problems); block += kBlock) {
     const Index size = std::min(kBlock, static_cast<Index>(options.problems) - block);
@@ -73,6 +140,7 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
         RandomStream poses(options.seed, Stream::evaluation, problem_number),
             views(options.seed, Stream::selector, problem_number);
         problems.draw_poses(poses, worker.problem);
+        categories[static_cast<std::size_t>(i - block)] = categories_of(dataset, worker.problem);
         for (std::size_t s = 0; s < selectors.size(); ++s) {
           if (selectors[s].view.empty()) {
             problems.draw_views(views, worker.problem);
@@ -81,27 +149,24 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
             for (std::int32_t pose : worker.problem.poses)
               worker.problem.rows.push_back(selectors[s].view[static_cast<std::size_t>(pose)]);
           }
-          for (std::size_t p = 0; p < pipelines.size(); ++p)
-            values[static_cast<std::size_t>(i - block) * stride + p * selectors.size() + s] =
-                metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
+          for (std::size_t p = 0; p < pipelines.size(); ++p) {
+            const auto metrics = metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
+            std::copy(
+                metrics.begin(), metrics.end(),
+                values.values.begin() + static_cast<std::ptrdiff_t>(problem_number * stride +
+                                                                    (p * selectors.size() + s) * kMetrics.size()));
+          }
         }
       }
     });
-    for (std::size_t i = 0; i < static_cast<std::size_t>(size) * stride; ++i)
-      for (std::size_t m = 0; m < kMetrics.size(); ++m) means[i % stride][m].add(values[i][m]);
+    for (Index i = 0; i < size; ++i) {
+      const auto& of_problem = categories[static_cast<std::size_t>(i)];
+      values.categories.insert(values.categories.end(), of_problem.begin(), of_problem.end());
+      values.first_category.push_back(values.categories.size());
+    }
     progress.update(block + size);
   }
-
-  EvaluationTable table;
-  table.problems = options.problems;
-  for (const auto& selector : selectors) table.selectors.push_back(selector.name);
-  for (std::size_t p = 0; p < pipelines.size(); ++p) {
-    table.pipelines.push_back(pipelines[p].name);
-    auto& row = table.cells.emplace_back(selectors.size());
-    for (std::size_t s = 0; s < selectors.size(); ++s)
-      for (std::size_t m = 0; m < kMetrics.size(); ++m) row[s][m] = means[p * selectors.size() + s][m].result();
-  }
-  return table;
+  return table_of(values, pipelines, selectors, options, parallel);
 }
 
 }  // namespace svnet::train

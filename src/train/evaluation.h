@@ -1,4 +1,5 @@
 #pragma once
+#include <map>
 #include <string>
 #include <vector>
 
@@ -8,6 +9,7 @@
 #include "semantics/clusterer.h"
 #include "semantics/clustering_problems.h"
 #include "semantics/distances.h"
+#include "train/category_bootstrap.h"
 #include "train/metrics.h"
 #include "train/selectors.h"
 
@@ -22,13 +24,23 @@ struct EvaluationPipeline {
 
 struct Mean {
   double mean = 0;
-  double standard_error = 0;  // NaN for a single problem
+  double standard_error = 0;  ///< over problems; NaN for a single one
+  Interval interval{};        ///< over categories (category_bootstrap.h)
+};
+
+/// A selector minus another one, in the same problems.
+struct Difference {
+  double mean = 0;
+  Interval interval;  ///< over categories (category_bootstrap.h)
 };
 
 /// Means over the problems: cell [pipeline][selector][metric].
 struct EvaluationTable {
   std::vector<std::string> pipelines, selectors;
   std::vector<std::vector<PerMetric<Mean>>> cells;
+  /// By the name of the selector to compare with, [pipeline][selector][metric]. If there are several pipelines, their
+  /// mean is one row more at the end.
+  std::map<std::string, std::vector<std::vector<PerMetric<Difference>>>> differences{};
   std::uint64_t problems = 0;
 };
 
@@ -36,6 +48,7 @@ struct EvaluationOptions {
   std::uint64_t problems = 10000;
   std::uint64_t seed = 0;
   semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
+  std::vector<std::string> baselines{"top", "rand"};  ///< selectors to compare with, if the table has them
 };
 
 /// Solves the same random problems (objects and poses of Stream::evaluation, random views of Stream::selector) with

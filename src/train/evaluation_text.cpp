@@ -1,6 +1,7 @@
 #include "train/evaluation_text.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +16,47 @@ std::string padded(std::string text, std::size_t width) {
 std::string number(double value, int digits) {
   char text[32];
   std::snprintf(text, sizeof text, "%.*f", digits, value);
+  return text;
+}
+
+std::string signed_number(double value) { return (value < 0 ? "" : "+") + number(value, 3); }
+
+std::string interval_text(const Interval& interval) {
+  if (std::isnan(interval.low)) return "";
+  return " [" + signed_number(interval.low) + ", " + signed_number(interval.high) + "]";
+}
+
+nlohmann::ordered_json with_interval(double mean, const Interval& interval) {
+  return {{"mean", mean}, {"low", interval.low}, {"high", interval.high}};  // NaN is written as null
+}
+
+/// What a row of differences is about: a pipeline, or their mean.
+std::string row_name(const EvaluationTable& table, std::size_t row) {
+  return row < table.pipelines.size() ? table.pipelines[row] : "mean";
+}
+
+std::size_t index_of_svnet(const EvaluationTable& table) {
+  return static_cast<std::size_t>(std::find(table.selectors.begin(), table.selectors.end(), "svnet") -
+                                  table.selectors.begin());
+}
+
+/// SV-net minus each selector to compare with; empty if the table does not have SV-net.
+std::string differences_text(const EvaluationTable& table) {
+  const std::size_t svnet = index_of_svnet(table);
+  if (svnet == table.selectors.size() || table.differences.empty()) return "";
+  std::string text = "SV-net minus another selector, with 95 % intervals over categories:\n";
+  for (const auto& [baseline, rows] : table.differences)
+    for (std::size_t row = 0; row < rows.size(); ++row) {
+      text += "  " + padded("- " + baseline, 14) + padded(row_name(table, row), 22);
+      for (std::size_t m = 0; m < kMetrics.size(); ++m) {
+        const Difference& difference = rows[row][svnet][m];
+        text += padded(
+            std::string(kMetrics[m].title) + " " + signed_number(difference.mean) + interval_text(difference.interval),
+            32);
+      }
+      while (text.back() == ' ') text.pop_back();
+      text += "\n";
+    }
   return text;
 }
 
@@ -42,7 +84,21 @@ std::string table_text(const EvaluationTable& table, const std::string& title) {
     }
     while (text.back() == ' ') text.pop_back();
   }
-  return text + "\nstandard error of a mean: at most " + number(largest_error, 4) + "\n";
+  return text + "\nstandard error of a mean: at most " + number(largest_error, 4) + "\n" + differences_text(table);
+}
+
+nlohmann::ordered_json differences_json(const EvaluationTable& table) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::object();
+  const std::size_t svnet = index_of_svnet(table);
+  if (svnet == table.selectors.size()) return json;
+  for (const auto& [baseline, rows] : table.differences)
+    for (std::size_t row = 0; row < rows.size(); ++row)
+      for (std::size_t m = 0; m < kMetrics.size(); ++m) {
+        const Difference& difference = rows[row][svnet][m];
+        json[row_name(table, row)]["svnet-" + baseline][kMetrics[m].name] =
+            with_interval(difference.mean, difference.interval);
+      }
+  return json;
 }
 
 std::string tables_json(const EvaluationTables& tables) {
@@ -56,8 +112,21 @@ std::string tables_json(const EvaluationTables& tables) {
           json["tables"][split][table.pipelines[p]][table.selectors[s]][kMetrics[m].name] = {
               {"mean", mean.mean}, {"standard_error", mean.standard_error}};
         }
+    if (auto differences = differences_json(table); !differences.empty())
+      json["differences"][split] = std::move(differences);
   }
   return json.dump(2) + "\n";
+}
+
+nlohmann::ordered_json intervals_json(const EvaluationTable& table) {
+  nlohmann::ordered_json json;
+  for (std::size_t p = 0; p < table.pipelines.size(); ++p)
+    for (std::size_t s = 0; s < table.selectors.size(); ++s)
+      for (std::size_t m = 0; m < kMetrics.size(); ++m) {
+        const Mean& mean = table.cells[p][s][m];
+        json[table.pipelines[p]][table.selectors[s]][kMetrics[m].name] = with_interval(mean.mean, mean.interval);
+      }
+  return json;
 }
 
 }  // namespace svnet::train

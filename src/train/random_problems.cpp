@@ -11,7 +11,7 @@ Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores&
 }
 
 semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
-                                                  const Config::Scores& config) {
+                                                  const Config::Scores& config, const semantics::ViewWeights& weights) {
   std::vector<std::int64_t> category, object, pose, excluded_categories;
   for (const View& view : dataset.views) {
     category.push_back(view.category);
@@ -30,7 +30,8 @@ semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, co
                                     .max_categories = config.max_categories,
                                     .min_objects = config.min_objects,
                                     .max_objects = config.max_objects,
-                                    .excluded_categories = excluded_categories}};
+                                    .excluded_categories = excluded_categories,
+                                    .view_weights = weights}};
 }
 
 }  // namespace svnet::train

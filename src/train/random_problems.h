@@ -10,9 +10,10 @@ namespace svnet::train {
 /// The fewest categories in a problem: scores.min_categories, or all that are not excluded if those are fewer.
 Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores& config);
 
-/// The random problems of a configuration over the categories of a dataset that are not excluded. Throws Error if a
-/// category has too few objects.
+/// The random problems of a configuration over the categories of a dataset that are not excluded. Views are drawn by
+/// `weights`, uniformly if it is empty. Throws Error if a category has too few objects.
 semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
-                                                  const Config::Scores& config);
+                                                  const Config::Scores& config,
+                                                  const semantics::ViewWeights& weights = {});
 
 }  // namespace svnet::train

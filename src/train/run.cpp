@@ -14,6 +14,7 @@
 #include "train/feature_extraction.h"
 #include "train/random_problems.h"
 #include "train/selectors.h"
+#include "train/top_frames.h"
 #include "train/trained_from.h"
 #include "train/validation_categories.h"
 
@@ -31,12 +32,17 @@ void check_config(const Run& run) {
     output_layer(kind, kind.graph(kind.preprocessing.height, true), layer);
     check_weights(name, config.weights.folder);
   };
-  check_backbone(config.scores.backbone, config.scores.layer);
-  check_backbone(config.sv_net.backbone, config.sv_net.layer);
-  const BackboneKind& tuned = models::backbone_kind(config.sv_net.backbone);
-  const Graph graph = tuned.graph(tuned.preprocessing.height, true);
-  static_cast<void>(
-      trained_from(config.training.fine_tune, tuned, graph, output_layer(tuned, graph, config.sv_net.layer)));
+  for (const auto& name : scored_backbones(config.scores)) check_backbone(name, scored_layer(config.scores, name));
+  if (config.sv_net.frame == frame::FrameChoice::camera) {
+    check_backbone(config.sv_net.backbone, config.sv_net.layer);
+    const BackboneKind& tuned = models::backbone_kind(config.sv_net.backbone);
+    const Graph graph = tuned.graph(tuned.preprocessing.height, true);
+    static_cast<void>(
+        trained_from(config.training.fine_tune, tuned, graph, output_layer(tuned, graph, config.sv_net.layer)));
+  }
+  if (config.sv_net.depth != frame::DepthChoice::none)
+    for (std::size_t pose = 0; pose < run.dataset.poses.size(); ++pose)
+      static_cast<void>(top_depth_file(run.dataset, static_cast<Index>(pose)));
   for (const auto& name : config.evaluation.pipelines)
     check_backbone(parse_pipeline(name, "evaluation.pipelines").backbone, "");
   static_cast<void>(selectors_of_table(config.evaluation.selectors, Split::training));
@@ -80,6 +86,17 @@ Run make_run(Config config, ViewDataset dataset, fs::path folder, const Messages
                  run.dataset.views.size(), " views"));
   check_config(run);
   return run;
+}
+
+Run with_config(const Run& run, Config config) {
+  const Config::Dataset &before = run.config.dataset, &after = config.dataset;
+  check(after.root == before.root && after.exif_orientation == before.exif_orientation &&
+            after.held_out == before.held_out,
+        "dataset: its keys cannot vary within a run folder");
+  Run other = run;
+  other.config = std::move(config);
+  check_config(other);
+  return other;
 }
 
 void write_config(const Run& run) {

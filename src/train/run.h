@@ -13,8 +13,8 @@ namespace svnet::train {
 
 /// One run: a configuration, its dataset and its folder. Every stage (train/stages/) is a function of the run and of
 /// what earlier stages returned:
-///   features-<backbone>[-<layer>].h5 -> scores.h5 -> checkpoint-*.safetensors, metrics.csv, model.safetensors ->
-///   evaluation.json, views.png
+///   features-<backbone>[-<layer>].h5 -> scores[-<backbone>][-round-<n>].h5 -> checkpoint-*.safetensors, metrics.csv,
+///   model.safetensors -> evaluation.json, views.png
 /// The processes of a communicator share the work. Each of them gets all results; the root process writes the files.
 struct Run {
   Config config;
@@ -39,6 +39,10 @@ struct Run {
 /// Returns the run.
 Run make_run(Config config, ViewDataset dataset, std::filesystem::path folder, const Messages& messages,
              Communicator& communicator = SingleProcess::shared(), const InferenceOptions& inference = {});
+
+/// `run` with another configuration of the same dataset and folder, checked as make_run checks it. Throws Error if it
+/// names another dataset, reads its images otherwise or holds other categories out.
+Run with_config(const Run& run, Config config);
 
 /// Writes config.yaml, the resolved configuration, into the run folder.
 void write_config(const Run& run);

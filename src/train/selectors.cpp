@@ -1,6 +1,10 @@
 #include "train/selectors.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -12,6 +16,10 @@ const SelectorKind kSelectors[] = {
     {"top", "the top view", true, true, [](const SelectorInputs& in) { return top_views(in.dataset); }},
     {"rand", "a random view, drawn for each problem", true, true,
      [](const SelectorInputs&) { return std::vector<std::int32_t>(); }},
+    {"broadside", "the view at phi 45 across the object's axis, a fixed rule", false, false,
+     [](const SelectorInputs& in) { return broadside_views(in.dataset, in.frames()); }},
+    {"phi_map", "a view at the elevation with the best mean training score, a fixed rule", false, false,
+     [](const SelectorInputs& in) { return phi_map_views(in.dataset, in.training_scores.individual); }},
     {"opt_glob", "the view with the best global score", true, false,
      [](const SelectorInputs& in) { return best_views(in.dataset, in.scores().global); }},
     {"opt_ind", "the view with the best individual score", true, false,
@@ -57,13 +65,65 @@ std::vector<std::int32_t> top_views(const ViewDataset& dataset) {
   return views;
 }
 
+std::vector<std::int32_t> broadside_views(const ViewDataset& dataset, std::span<const frame::TopFrame> frames) {
+  constexpr double kRadians = std::numbers::pi / 180, kElevation_deg = 45;
+  std::vector<std::int32_t> chosen;
+  for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
+    const ViewDataset::Pose& pose = dataset.poses[p];
+    const bool found = frames[p].axis.kind == frame::AxisKind::found;
+    double least = std::numeric_limits<double>::infinity();
+    Index best = pose.first_view;
+    for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
+      const View& view = dataset.views[static_cast<std::size_t>(v)];
+      const double along = std::cos((view.theta_deg - frames[p].axis.direction_deg) * kRadians);
+      // Degrees off the elevation, and off the plane across the axis.
+      const double off = std::abs(view.phi_deg - kElevation_deg) +
+                         (found && view.phi_deg < 90 ? std::asin(std::abs(along)) / kRadians : 0);
+      if (off < least) {
+        least = off;
+        best = v;
+      }
+    }
+    chosen.push_back(static_cast<std::int32_t>(best));
+  }
+  return chosen;
+}
+
+std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<const double> scores) {
+  struct Sum {
+    double sum = 0, count = 0;
+  };
+  std::map<int, Sum> by_phi;
+  for (const auto& pose : dataset.poses) {
+    Sum all;
+    const auto each = [&](const auto& use) {
+      for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v)
+        if (const double score = scores[static_cast<std::size_t>(v)]; std::isfinite(score)) use(v, score);
+    };
+    each([&](Index, double score) {
+      all.sum += score;
+      ++all.count;
+    });
+    each([&](Index v, double score) {
+      Sum& sum = by_phi[dataset.views[static_cast<std::size_t>(v)].phi_deg];
+      sum.sum += score - all.sum / all.count;
+      ++sum.count;
+    });
+  }
+  std::vector<double> mean(dataset.views.size(), std::numeric_limits<double>::quiet_NaN());
+  for (std::size_t v = 0; v < mean.size(); ++v)
+    if (const auto at = by_phi.find(dataset.views[v].phi_deg); at != by_phi.end())
+      mean[v] = at->second.sum / at->second.count;
+  return best_views(dataset, mean);
+}
+
 std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores) {
   check(scores.size() == dataset.views.size(), "[evaluation] ", scores.size(), " scores for ", dataset.views.size(),
         " views");
   std::vector<std::int32_t> views = top_views(dataset);
   for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
     const auto& pose = dataset.poses[p];
-    double best = -1;
+    double best = -std::numeric_limits<double>::infinity();
     for (Index view = pose.first_view; view < pose.first_view + pose.view_count; ++view)
       if (scores[static_cast<std::size_t>(view)] > best) {  // false for NaN
         best = scores[static_cast<std::size_t>(view)];

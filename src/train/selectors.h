@@ -5,7 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "data/scores.h"
 #include "data/view_dataset.h"
+#include "frame/top_frame.h"
 
 namespace svnet::train {
 
@@ -26,6 +28,8 @@ struct SelectorInputs {
   const ViewDataset& dataset;
   std::function<ViewScores()> scores;  ///< in problems of the table's own categories; computed on the first call
   std::span<const double> predicted;   ///< SV-net's score of every view
+  const Scores& training_scores;       ///< of the training categories
+  std::function<const std::vector<frame::TopFrame>&()> frames;  ///< of every pose; computed on the first call
 };
 
 /// Which categories a table covers.
@@ -48,6 +52,14 @@ std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::strin
 
 /// The top view of each pose.
 std::vector<std::int32_t> top_views(const ViewDataset& dataset);
+
+/// The view of each pose that is nearest to φ 45° across the object's axis, whichever of the two sides; the lowest view
+/// in azimuth order if no axis was found. `frames` are those of the poses.
+std::vector<std::int32_t> broadside_views(const ViewDataset& dataset, std::span<const frame::TopFrame> frames);
+
+/// The view of each pose whose elevation has the highest mean score; the first such view in the order of the views.
+/// A view without a score does not count, and each score counts minus the mean of its pose.
+std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<const double> scores);
 
 /// The view of each pose with the highest score; the first among equals. The top view if no view of the pose has a
 /// score.

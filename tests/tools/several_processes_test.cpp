@@ -67,6 +67,25 @@ TEST_CASE("one, two and three processes train the same model") {
   }
 }
 
+TEST_CASE("one and two processes make the same on-policy scores of two backbones") {
+  if (!can_run_ranks()) return;
+  const Workplace place;
+  const std::string options =
+      " --set scores.rounds=1 --set scores.backbones=[tiny_xception,mobilenet_v2] --set weights.folder= "
+      "--set training.epochs=1";
+  for (const int ranks : {0, 2}) {
+    INFO(ranks << " processes");
+    const std::string folder = "rounds" + std::to_string(ranks);
+    progress_of(place, ranks, kTrain + options + " --output " + folder);
+    for (const char* file : {"scores.h5", "scores-round-1.h5", "scores-mobilenet_v2-round-1.h5",
+                             "round-1/model.safetensors", "model.safetensors"}) {
+      INFO(file);
+      CHECK(file_contents(place / folder / file) == file_contents(place / "rounds0" / file));
+    }
+  }
+  CHECK(occurrences(progress_of(place, 2, kTrain + options + " --output rounds0"), "reused") == 5);
+}
+
 TEST_CASE("several processes resume a run folder") {
   if (!can_run_ranks()) return;
   const Workplace place;

@@ -1,11 +1,15 @@
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include "base/error.h"
+#include "base/sha256.h"
 #include "temporary_folder.h"
 #include "train/config/config_file.h"
+#include "train/config/config_table.h"
 #include "train/config/fingerprint.h"
 #include "train/config/pipeline_name.h"
 #include "train/config/strict_yaml.h"
@@ -79,7 +83,7 @@ TEST_CASE("every error of a key names file, line and key") {
   const auto at_line_3 = [](const std::string& line) { return error_of(kBase + line + "\n"); };
   CHECK(at_line_3("sede: 1") == "c.yaml:3: sede: unknown key, did you mean 'seed'?");
   CHECK(at_line_3("colours: 1") ==
-        "c.yaml:3: colours: unknown key; known: seed, dataset, weights, scores, sv_net, training, evaluation");
+        "c.yaml:3: colours: unknown key; known: preset, seed, dataset, weights, scores, sv_net, training, evaluation");
   CHECK(at_line_3("training:\n  epoch: 1") == "c.yaml:4: training.epoch: unknown key, did you mean 'epochs'?");
   CHECK(at_line_3("sv_net:\n  optimizer: adam") ==
         "c.yaml:4: sv_net.optimizer: unknown key, did you mean 'training.optimizer'?");
@@ -281,12 +285,14 @@ std::array<std::string, 3> fingerprints(const Config& config, const std::string&
 
 TEST_CASE("a key changes the fingerprint of its stage, those of later stages, and none of earlier ones") {
   const std::string pipelines = "evaluation.pipelines=[xception_ward]";
-  const auto before = fingerprints(parse(kBase, {pipelines}));
   for (const ConfigKey& key : config_keys()) {
     INFO(key.name << ", of stage " << name_of(key.stage));
+    if (key.name == "preset") continue;  // it sets keys of all stages
     const std::string value = another_value(key);
     REQUIRE(value != key.default_value);
-    const auto after = fingerprints(parse(kBase, {pipelines, key.name + "=" + value}));
+    const std::string frame = key.name == "sv_net.depth" ? "sv_net.frame=axis" : "sv_net.frame=camera";
+    const auto before = fingerprints(parse(kBase, {pipelines, frame}));
+    const auto after = fingerprints(parse(kBase, {pipelines, frame, key.name + "=" + value}));
     const Stage stages[] = {Stage::scores, Stage::model, Stage::evaluation};
     for (std::size_t i = 0; i < 3; ++i) {
       INFO("fingerprint of " << name_of(stages[i]));
@@ -294,6 +300,40 @@ TEST_CASE("a key changes the fingerprint of its stage, those of later stages, an
       CHECK((after[i] != before[i]) == (key.stage != Stage::features && key.stage <= stages[i]));
     }
   }
+}
+
+TEST_CASE("a key that came later leaves fingerprints as they were while it has its default") {
+  const Config config = parse(kBase);
+  Sha256 before;
+  before.update_field("scores 2").update_field("views");
+  std::map<std::string, std::string> values;
+  Config copy = config;
+  for (const BoundKey& key : bound_keys(copy))
+    if (key.stage == Stage::scores && key.name != "scores.rounds") values[key.name] = key.write({});
+  for (const auto& [name, value] : values) before.update_field(name).update_field(value);
+  CHECK(scores_fingerprint("views", config) == before.hex());
+  CHECK(scores_fingerprint("views", parse(kBase, {"scores.rounds=0"})) == before.hex());
+  CHECK(scores_fingerprint("views", parse(kBase, {"scores.rounds=1"})) != before.hex());
+}
+
+TEST_CASE("fingerprints change with every bit of the weights, and with every scores file of a mean") {
+  const Config c = parse(kBase);
+  const std::set<std::string> different{scores_fingerprint("views", c),
+                                        scores_fingerprint("views", {0.5, 0.5}, c),
+                                        scores_fingerprint("other", {0.5, 0.5}, c),
+                                        scores_fingerprint("views", {0.5, std::nextafter(0.5, 1)}, c),
+                                        mean_scores_fingerprint(std::array<std::string, 2>{"a", "b"}, c),
+                                        mean_scores_fingerprint(std::array<std::string, 2>{"b", "a"}, c),
+                                        mean_scores_fingerprint(std::array<std::string, 1>{"a"}, c)};
+  CHECK(different.size() == 7);
+}
+
+TEST_CASE("the pipelines of several backbones are the default ones") {
+  const Config c = parse(kBase, {"scores.backbones=[mobilenet, xception]", "scores.layer=block14_sepconv2_act",
+                                 "scores.clustering=kmeans"});
+  CHECK(c.evaluation.pipelines == std::vector<std::string>{"mobilenet_kmeans", "xception_kmeans"});
+  CHECK(scored_layer(c.scores, "mobilenet").empty());
+  CHECK(scored_layer(c.scores, "xception") == "block14_sepconv2_act");
 }
 
 TEST_CASE("fingerprints change with those of the features, and with every name of an enum") {
@@ -356,6 +396,62 @@ TEST_CASE("a tab or a no-break space is named, with its place") {
       "scores: {problems: 1} #\xc2\xa0\ttext\n\t\n\t# comment\ndataset:\n"
       "  root: 'a\xc2\xa0\tb'\n  held_out: [car,\n\tdog]\n");
   CHECK(c.dataset.held_out == std::vector<std::string>{"car", "dog"});
+}
+
+TEST_CASE("a preset sets other keys first, wherever it stands, and keys that are given come after it") {
+  const Config best = parse(kBase + "preset: best\n");
+  CHECK(best.preset == Preset::best);
+  CHECK(best.sv_net.frame == frame::FrameChoice::axis);
+  CHECK(to_yaml(parse("preset: best\n" + kBase)) == to_yaml(best));
+  CHECK(parse(kBase, {"preset=best"}).sv_net.frame == frame::FrameChoice::axis);
+  CHECK(parse(kBase, {"sv_net.frame=camera", "preset=best"}).sv_net.frame == frame::FrameChoice::camera);
+  CHECK(parse("sv_net: {frame: camera}\npreset: best\n" + kBase).sv_net.frame == frame::FrameChoice::camera);
+  CHECK(parse(kBase + "preset: turns\n").training.augmentation == TopViewAugmentation::turns);
+  CHECK(parse(kBase + "preset: turns\n", {"preset=best"}).training.augmentation == TopViewAugmentation::none);
+  CHECK(parse(kBase + "sv_net: {width: 9}\n", {"preset=turns"}).sv_net.width == 9);
+  Config paper = parse(kBase), explicitly = parse(kBase + "preset: paper\n");
+  CHECK(to_yaml(paper) == to_yaml(explicitly));
+}
+
+TEST_CASE("an unknown preset is refused with its place and the nearest one") {
+  CHECK(error_of(kBase + "preset: bests\n") ==
+        "c.yaml:3: preset: unknown value 'bests', expected one of paper, turns, best; did you mean 'best'?");
+  CHECK(error_of_override("preset=turn") ==
+        "--set preset: unknown value 'turn', expected one of paper, turns, best; did you mean 'turns'?");
+  CHECK(error_of_override("preset=") == error_of_override("preset=''"));
+  CHECK_FALSE(error_of(kBase + "preset: [best]\n").empty());
+}
+
+TEST_CASE("the resolved configuration of every preset reads back equal") {
+  for (const std::string& preset : names_of<Preset>()) {
+    INFO(preset);
+    const Config c = parse(kBase, {"preset=" + preset, "scores.rounds=3", "scores.backbones=[mobilenet, xception]"});
+    const std::string yaml = to_yaml(c);
+    const Config again = parse_config(yaml, "resolved", "/elsewhere");
+    CHECK(to_yaml(again) == yaml);
+    CHECK(again.preset == c.preset);
+    CHECK(again.sv_net.frame == c.sv_net.frame);
+    CHECK(again.scores.rounds == 3);
+    CHECK(fingerprints(again) == fingerprints(c));
+  }
+}
+
+TEST_CASE("depth is of the frame axis only") {
+  const std::string problem = ": only the frame axis reads depth; set sv_net.frame to axis";
+  CHECK(error_of_override("sv_net.depth=heights") == "--set sv_net.depth" + problem);
+  CHECK(error_of(kBase + "sv_net:\n  depth: heights\n") == "c.yaml:4: sv_net.depth" + problem);
+  CHECK(error_of(kBase + "preset: best\nsv_net:\n  depth: heights\n  frame: camera\n") ==
+        "c.yaml:5: sv_net.depth" + problem);
+  CHECK(parse(kBase, {"preset=best", "sv_net.depth=heights"}).sv_net.depth == frame::DepthChoice::heights);
+}
+
+TEST_CASE("the frame and its depth change the model, and the camera's models keep their fingerprints") {
+  const auto camera = fingerprints(parse(kBase)), axis = fingerprints(parse(kBase, {"sv_net.frame=axis"})),
+             depth = fingerprints(parse(kBase, {"sv_net.frame=axis", "sv_net.depth=heights"}));
+  CHECK(axis[0] == camera[0]);
+  CHECK(axis[1] != camera[1]);
+  CHECK(depth[1] != axis[1]);
+  CHECK(fingerprints(parse(kBase, {"sv_net.frame=camera", "sv_net.depth=none"})) == camera);
 }
 
 TEST_CASE("the EXIF orientation is ignored unless the configuration says to obey it") {

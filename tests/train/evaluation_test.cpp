@@ -2,6 +2,7 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "train/evaluation_text.h"
 
@@ -63,6 +64,88 @@ TEST_CASE("a selector of the informative views clusters perfectly, and tables do
   const std::string json = tables_json({{"training", table}});
   CHECK(json.find("\"opt_ind\"") != std::string::npos);
   CHECK(table_text(table, "Training").find("line_ward") != std::string::npos);
+}
+
+namespace {
+
+/// A table of two pipelines, in which SV-net knows the informative views.
+EvaluationTable table_with_svnet(const std::vector<std::string>& baselines = {"top", "rand"}) {
+  const Scene scene;
+  Parallel two(2);
+  const auto distances = squared_distances(scene.features.data(), 12, 1, two);
+  const ClusteringProblems problems(scene.category, scene.object, scene.pose, {.min_categories = 2});
+  std::vector<double> scores(12, 0.0);
+  for (std::size_t i = 0; i < 12; i += 2) scores[i] = 1.0;
+  const std::vector<EvaluationPipeline> pipelines{
+      {"line_ward", &distances, {.dimension = 1}},
+      {"line_single", &distances, {.method = Clustering::single, .dimension = 1}}};
+  const std::vector<Selector> selectors{
+      {"top", top_views(scene.dataset)}, {"rand", {}}, {"svnet", best_views(scene.dataset, scores)}};
+  return evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 300, .baselines = baselines}, two, {},
+                  "");
+}
+
+}  // namespace
+
+TEST_CASE("differences of selectors are those of their means, and the last row is the mean over pipelines") {
+  const EvaluationTable table = table_with_svnet();
+  REQUIRE(table.differences.size() == 2);
+  for (const auto& [baseline, column] : {std::pair<std::string, std::size_t>{"top", 0}, {"rand", 1}}) {
+    const auto& rows = table.differences.at(baseline);
+    REQUIRE(rows.size() == 3);
+    for (std::size_t s = 0; s < 3; ++s)
+      for (std::size_t m = 0; m < 3; ++m) {
+        INFO(baseline << ", selector " << s << ", metric " << m);
+        double mean = 0;
+        for (std::size_t p = 0; p < 2; ++p) {
+          const double expected = table.cells[p][s][m].mean - table.cells[p][column][m].mean;
+          CHECK(rows[p][s][m].mean == Approx(expected).margin(1e-12));
+          mean += expected / 2;
+        }
+        CHECK(rows[2][s][m].mean == Approx(mean).margin(1e-12));
+        CHECK(rows[2][s][m].interval.low <= rows[2][s][m].interval.high);
+        if (s == column) CHECK(rows[2][s][m].interval.high == 0);
+      }
+    CHECK(rows[2][2][0].mean > 0);
+  }
+}
+
+TEST_CASE("selectors are compared with those baselines that the table has") {
+  CHECK(table_with_svnet({"rand", "broadside"}).differences.count("rand") == 1);
+  CHECK(table_with_svnet({"rand", "broadside"}).differences.size() == 1);
+  CHECK_THAT(table_text(table_with_svnet({}), "x"), !Catch::Contains("minus"));
+}
+
+TEST_CASE("tables say how far SV-net is ahead, with intervals, in text and JSON") {
+  const EvaluationTable table = table_with_svnet();
+  const std::string text = table_text(table, "Held-out categories");
+  for (const char* part : {"SV-net minus another selector, with 95 % intervals over categories", "- rand", "- top",
+                           "line_single", "mean", "purity +", " [+"})
+    CHECK_THAT(text, Catch::Contains(part));
+  const auto json = nlohmann::json::parse(tables_json({{"held_out", table}}));
+  const auto& fm = json.at("differences").at("held_out").at("line_ward").at("svnet-rand").at("fm");
+  CHECK(fm.at("mean").get<double>() == Approx(table.differences.at("rand")[0][2][0].mean));
+  CHECK(fm.at("low").get<double>() == Approx(table.differences.at("rand")[0][2][0].interval.low));
+  CHECK(json.at("differences").at("held_out").at("mean").at("svnet-top").at("purity").at("high").is_number());
+  CHECK(json.at("tables").at("held_out").at("line_ward").at("svnet").at("fm").at("standard_error").is_number());
+  const auto cells = nlohmann::json::parse(intervals_json(table).dump());
+  CHECK(cells.at("line_single").at("rand").at("nmi").at("low").is_number());
+
+  EvaluationTable without = table;
+  without.selectors[2] = "opt_ind";
+  CHECK(differences_json(without).empty());
+  CHECK_FALSE(nlohmann::json::parse(tables_json({{"training", without}})).contains("differences"));
+}
+
+TEST_CASE("an interval that cannot be told is null in JSON and left out of the text") {
+  EvaluationTable table = table_with_svnet();
+  for (auto& row : table.differences.at("rand"))
+    for (auto& selector : row)
+      for (Difference& difference : selector) difference.interval = {std::nan(""), std::nan("")};
+  table.differences.erase("top");
+  const auto json = nlohmann::json::parse(tables_json({{"held_out", table}}));
+  CHECK(json.at("differences").at("held_out").at("mean").at("svnet-rand").at("fm").at("low").is_null());
+  CHECK_THAT(table_text(table, "x"), !Catch::Contains(" ["));
 }
 
 TEST_CASE("a pose without scores gets its top view") {

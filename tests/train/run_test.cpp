@@ -11,6 +11,7 @@
 #include "models/backbone.h"
 #include "predict/predictor.h"
 #include "small_dataset.h"
+#include "small_run.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/dry_run.h"
 #include "train/stages/evaluation.h"
@@ -27,33 +28,6 @@ using namespace svnet::train;
 using namespace svnet::view;
 
 namespace {
-
-Config small_config(const std::filesystem::path& data) {
-  Config config;
-  config.seed = 3;
-  config.dataset.root = data;
-  config.dataset.held_out = {"ring"};
-  config.scores.backbone = config.sv_net.backbone = "tiny_xception";
-  config.scores.problems = 300;
-  config.scores.min_categories = 2;
-  config.sv_net.width = 16;
-  config.sv_net.dropout = 0.5;
-  config.training.epochs = 4;
-  config.training.batch_size = 5;
-  config.evaluation.problems = 40;
-  config.evaluation.pipelines = {"tiny_xception_ward", "tiny_xception_kmeans"};
-  return config;
-}
-
-struct Log {
-  std::vector<std::string> lines;
-  Messages messages{.line = [this](std::string_view line) { lines.emplace_back(line); }, .progress = {}};
-  bool has(const std::string& part) const {
-    for (const auto& line : lines)
-      if (line.find(part) != std::string::npos) return true;
-    return false;
-  }
-};
 
 /// A run and its stages, each with what it needs from the earlier ones.
 class Stages {

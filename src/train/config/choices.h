@@ -5,6 +5,12 @@
 
 namespace svnet::train {
 
+/// Named settings of SV-net, which a configuration starts from (preset.h).
+enum class Preset { paper, turns, best };
+constexpr auto enum_table(Preset) {
+  return std::to_array<EnumName<Preset>>({{Preset::paper, "paper"}, {Preset::turns, "turns"}, {Preset::best, "best"}});
+}
+
 /// Which score of a view SV-net learns.
 enum class Target { individual, global };
 constexpr auto enum_table(Target) {

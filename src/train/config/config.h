@@ -5,6 +5,7 @@
 
 #include "base/exif_orientation.h"
 #include "base/index.h"
+#include "frame/frame_choice.h"
 #include "models/sv_net.h"
 #include "nn/optim/optimizer.h"
 #include "nn/optim/schedule.h"
@@ -27,7 +28,8 @@ struct Config {
   };
   struct Scores {
     std::string backbone = "xception";
-    std::string layer;
+    std::string layer;                   ///< of `backbone` alone
+    std::vector<std::string> backbones;  ///< empty: `backbone`; see scored_backbones
     semantics::Clustering clustering = semantics::Clustering::ward;
     Index min_samples = 0;  ///< at least one of the three stop rules must be above 0
     Index problems = 0;
@@ -35,8 +37,11 @@ struct Config {
     Index min_categories = 3, max_categories = 0;
     Index min_objects = 1, max_objects = 0;
     semantics::Singletons singletons = semantics::Singletons::zero;
+    Index rounds = 0;
   };
   struct SvNet {
+    frame::FrameChoice frame = frame::FrameChoice::camera;
+    frame::DepthChoice depth = frame::DepthChoice::none;
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;
@@ -65,6 +70,7 @@ struct Config {
     semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
   };
 
+  Preset preset = Preset::paper;
   Index seed = 0;
   Dataset dataset;
   Weights weights;
@@ -73,5 +79,15 @@ struct Config {
   Training training;
   Evaluation evaluation;
 };
+
+/// The backbones whose features are clustered, each for scores of its own. Scores are the mean over them.
+inline std::vector<std::string> scored_backbones(const Config::Scores& scores) {
+  return scores.backbones.empty() ? std::vector{scores.backbone} : scores.backbones;
+}
+
+/// The layer of a backbone whose output is clustered; "": the pooled output.
+inline std::string scored_layer(const Config::Scores& scores, const std::string& backbone) {
+  return backbone == scores.backbone ? scores.layer : std::string();
+}
 
 }  // namespace svnet::train

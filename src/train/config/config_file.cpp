@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "train/config/config_table.h"
+#include "train/config/preset.h"
 #include "train/config/strict_yaml.h"
 
 namespace svnet::train {
@@ -87,6 +88,8 @@ void check_together(const Config& c, const ConfigReader& reader) {
         ": no rule says when to stop, set scores.min_samples, scores.problems or scores.target_error above 0");
   check(s.max_categories == 0 || s.max_categories >= s.min_categories, reader.where("scores.max_categories"), ": ",
         s.max_categories, " is less than scores.min_categories ", s.min_categories);
+  check(c.sv_net.depth == frame::DepthChoice::none || c.sv_net.frame == frame::FrameChoice::axis,
+        reader.where("sv_net.depth"), ": only the frame axis reads depth; set sv_net.frame to axis");
   check(s.max_objects == 0 || s.max_objects >= s.min_objects, reader.where("scores.max_objects"), ": ", s.max_objects,
         " is less than scores.min_objects ", s.min_objects);
 }
@@ -129,11 +132,20 @@ Config parse_config(const std::string& text, const std::string& source, const pa
                     std::span<const std::string> overrides) {
   Config config;
   ConfigReader reader(config, source);
-  reader.read(parse_yaml(text, source), std::filesystem::absolute(folder));
-  for (const auto& assignment : overrides) reader.read(parse_override(assignment), std::filesystem::current_path());
+  const YamlValue file = parse_yaml(text, source);
+  std::vector<YamlValue> given;
+  for (const auto& assignment : overrides) given.push_back(parse_override(assignment));
+  // The preset first, since it sets other keys.
+  for (const auto& values : {file.items, given})
+    for (const YamlValue& value : values)
+      if (value.key == "preset") reader.read(value, folder);
+  config = config_of(config.preset);
+  reader.read(file, std::filesystem::absolute(folder));
+  for (const YamlValue& value : given) reader.read(value, std::filesystem::current_path());
   check_together(config, reader);
   if (config.evaluation.pipelines.empty())
-    config.evaluation.pipelines = {joined(config.scores.backbone, "_", name_of(config.scores.clustering))};
+    for (const std::string& backbone : scored_backbones(config.scores))
+      config.evaluation.pipelines.push_back(joined(backbone, "_", name_of(config.scores.clustering)));
   return config;
 }
 

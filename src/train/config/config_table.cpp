@@ -78,6 +78,11 @@ BoundKey names(Stage stage, std::string name, Names& field, std::string help) {
           [&field](const path&) { return written_yaml(field); }};
 }
 
+BoundKey later(BoundKey key) {
+  key.default_counts = false;
+  return key;
+}
+
 BoundKey pipelines(Stage stage, std::string name, Names& field, std::string help) {
   BoundKey key = names(stage, std::move(name), field, std::move(help));
   key.accepts = "a list of BACKBONE_CLUSTERING";
@@ -96,6 +101,10 @@ std::vector<BoundKey> bound_keys(Config& c) {
   constexpr NumberRange kBelowOne{.min = 0, .max = 1, .max_open = true};
   const std::string backbone = "a backbone's name", layer = "a layer's name, or \"\"";
   return {
+      choice(
+          Stage::evaluation, "preset", c.preset,
+          "The settings that the other keys start from. paper: the defaults. turns: features that are not pooled, in "
+          "eight orientations. best: the object's own axis and on-policy scores."),
       whole(Stage::scores, "seed", c.seed, kNotNegative, "Everything random is drawn from this seed."),
 
       folder_path(Stage::features, "dataset.root", c.dataset.root, "a folder, required",
@@ -112,6 +121,8 @@ std::vector<BoundKey> bound_keys(Config& c) {
            "Backbone of the features that are clustered."),
       text(Stage::features, "scores.layer", c.scores.layer, layer,
            "Layer whose output is clustered. Empty: the pooled output."),
+      names(Stage::features, "scores.backbones", c.scores.backbones,
+            "Backbones whose scores are averaged; scores.layer is only of scores.backbone. Empty: scores.backbone."),
       choice(Stage::scores, "scores.clustering", c.scores.clustering,
              "Agglomerative clustering by its linkage, or k-means."),
       whole(Stage::scores, "scores.min_samples", c.scores.min_samples, kProblems,
@@ -129,7 +140,16 @@ std::vector<BoundKey> bound_keys(Config& c) {
             "Most objects of a category in a problem. 0: all."),
       choice(Stage::scores, "scores.singletons", c.scores.singletons,
              "A singleton scores zero, or is left out of the mean of individual scores."),
+      later(whole(Stage::scores, "scores.rounds", c.scores.rounds, kNotNegative,
+                  "Times that scores are made again with on-policy views: those that a model of the last scores would "
+                  "choose. 0: uniform views only.")),
 
+      later(choice(Stage::model, "sv_net.frame", c.sv_net.frame,
+                   "camera: features of the top image as taken, and the angles. axis: what is measured from the "
+                   "object's own axis, fitted by ridge regression, without a backbone.")),
+      later(choice(Stage::model, "sv_net.depth", c.sv_net.depth,
+                   "heights: what the depth of the top views says of heights above the table goes in too; frame axis "
+                   "only.")),
       text(Stage::features, "sv_net.backbone", c.sv_net.backbone, backbone,
            "Backbone of the features of the top image."),
       text(Stage::features, "sv_net.layer", c.sv_net.layer, layer,

@@ -21,6 +21,9 @@ struct BoundKey {
   std::function<void(const YamlValue& value, const std::filesystem::path& folder)> read;
   /// The field as YAML; paths are written relative to `folder` if it is not empty.
   std::function<std::string(const std::filesystem::path& folder)> write;
+  /// false: with its default value the key is part of no fingerprint. For keys that came later, so that results from
+  /// before them can be reused.
+  bool default_counts = true;
 };
 
 /// All keys, section by section, bound to `config`, which must outlive them.

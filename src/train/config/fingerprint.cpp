@@ -28,10 +28,14 @@ const char* method_of(Stage stage) {
 
 std::string stage_fingerprint(Stage stage, std::span<const std::string> inputs, const Config& config) {
   assert(stage != Stage::features);
-  Config copy = config;
+  Config copy = config, defaults;
+  const std::vector<BoundKey> keys = bound_keys(copy), default_keys = bound_keys(defaults);
   std::map<std::string, std::string> values;  // sorted, so that the order of the table does not matter
-  for (const BoundKey& key : bound_keys(copy))
-    if (key.stage == stage) values[key.name] = key.write({});
+  for (std::size_t i = 0; i < keys.size(); ++i) {
+    const std::string value = keys[i].write({});
+    const bool counts = keys[i].default_counts || value != default_keys[i].write({});
+    if (keys[i].stage == stage && counts) values[keys[i].name] = value;
+  }
   Sha256 hash;
   hash.update_field(method_of(stage));
   for (const std::string& input : inputs) hash.update_field(input);
@@ -41,6 +45,20 @@ std::string stage_fingerprint(Stage stage, std::span<const std::string> inputs, 
 
 std::string scores_fingerprint(const std::string& features_fingerprint, const Config& config) {
   return stage_fingerprint(Stage::scores, std::span(&features_fingerprint, 1), config);
+}
+
+std::string scores_fingerprint(const std::string& features_fingerprint, const semantics::ViewWeights& weights,
+                               const Config& config) {
+  Sha256 bytes;
+  bytes.update(weights.data(), weights.size() * sizeof(double));
+  const std::string inputs[] = {features_fingerprint, "view weights", bytes.hex()};
+  return stage_fingerprint(Stage::scores, inputs, config);
+}
+
+std::string mean_scores_fingerprint(std::span<const std::string> scores, const Config& config) {
+  std::vector<std::string> inputs{"mean"};
+  inputs.insert(inputs.end(), scores.begin(), scores.end());
+  return stage_fingerprint(Stage::scores, inputs, config);
 }
 
 std::string model_fingerprint(const std::string& features, const std::string& scores, const Config& config) {

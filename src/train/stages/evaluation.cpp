@@ -1,47 +1,13 @@
 #include "train/stages/evaluation.h"
 
-#include <map>
-#include <utility>
-
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
-#include "train/config/pipeline_name.h"
 #include "train/random_problems.h"
 #include "train/stages/held_out_scores.h"
+#include "train/stages/pipeline_distances.h"
 
 namespace svnet::train {
 namespace {
-
-/// The distances that pipelines need, those of each backbone once.
-class PipelineDistances {
- public:
-  PipelineDistances(const Run& run, FeaturesStage& features) : run_(run), features_(features) {}
-
-  EvaluationPipeline pipeline(const std::string& name) {
-    const PipelineName parsed = parse_pipeline(name, "evaluation.pipelines");
-    const auto& [distances, dimension] = distances_of(parsed.backbone);
-    return {name, &distances, {.method = parsed.clustering, .dimension = dimension}};
-  }
-
- private:
-  using Distances = std::pair<semantics::DistanceMatrix, Index>;  // with the features' dimension
-
-  const Distances& distances_of(const std::string& backbone) {
-    const auto found = distances_.find(backbone);
-    if (found != distances_.end()) return found->second;
-    const auto& scored = run_.config.scores;
-    const Features& f = features_.features(backbone, backbone == scored.backbone ? scored.layer : std::string());
-    return distances_
-        .emplace(backbone,
-                 Distances(semantics::squared_distances(f.values.data(), f.count, f.dimension, Parallel::shared()),
-                           f.dimension))
-        .first->second;
-  }
-
-  const Run& run_;
-  FeaturesStage& features_;
-  std::map<std::string, Distances> distances_{};
-};
 
 std::vector<Selector> selectors(const Run& run, Split split, const SelectorInputs& inputs) {
   std::vector<Selector> selectors;
@@ -54,7 +20,7 @@ std::vector<Selector> selectors(const Run& run, Split split, const SelectorInput
 
 EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs, std::uint64_t problems,
                                   const std::optional<std::filesystem::path>& copy) {
-  PipelineDistances distances(run, inputs.features);
+  PipelineDistances distances(run.config, inputs.features);
   std::vector<EvaluationPipeline> pipelines;
   for (const auto& name : run.config.evaluation.pipelines) pipelines.push_back(distances.pipeline(name));
   const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
@@ -64,13 +30,18 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
                     options, Parallel::shared(), run.messages, task);
   };
 
+  const auto frames = [&]() -> const std::vector<frame::TopFrame>& {
+    return inputs.features.frames(run.config.sv_net.depth);
+  };
   EvaluationTables tables;
   const SelectorInputs in_training{.dataset = run.dataset,
                                    .scores =
                                        [&] {
                                          return ViewScores{inputs.scores.individual, inputs.scores.global};
                                        },
-                                   .predicted = inputs.predicted};
+                                   .predicted = inputs.predicted,
+                                   .training_scores = inputs.scores,
+                                   .frames = frames};
   tables["training"] =
       table(run.held_out, selectors(run, Split::training, in_training), "evaluation, training categories");
   if (run.has_held_out_problems()) {
@@ -81,7 +52,9 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
                                            if (!scores) scores = held_out_scores(run, inputs.features, problems);
                                            return ViewScores{scores->individual, scores->global};
                                          },
-                                     .predicted = inputs.predicted};
+                                     .predicted = inputs.predicted,
+                                     .training_scores = inputs.scores,
+                                     .frames = frames};
     tables["held_out"] = table(run.training_categories(), selectors(run, Split::held_out, in_held_out),
                                "evaluation, held-out categories");
   } else {

@@ -1,6 +1,8 @@
 #include "train/stages/features.h"
 
+#include "base/parallel.h"
 #include "train/stages/reuse_or_make.h"
+#include "train/top_frames.h"
 
 namespace svnet::train {
 
@@ -28,6 +30,12 @@ const Features& FeaturesStage::features(const std::string& name, const std::stri
   };
   const StageFile file{.path = path, .fingerprint = origin.input_fingerprint, .content = "features of " + name};
   return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, io::write_features)).first->second;
+}
+
+const std::vector<frame::TopFrame>& FeaturesStage::frames(frame::DepthChoice depth) {
+  const auto found = frames_.find(depth);
+  if (found != frames_.end()) return found->second;
+  return frames_.emplace(depth, top_frames(run_.dataset, depth, run_.messages, Parallel::shared())).first->second;
 }
 
 }  // namespace svnet::train

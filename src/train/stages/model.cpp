@@ -9,14 +9,18 @@
 #include "models/trained_graph.h"
 #include "train/config/fingerprint.h"
 #include "train/epoch_order.h"
+#include "train/ridge_head.h"
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
+#include "train/stages/wanted_scores.h"
+#include "train/top_frames.h"
 #include "train/trained_from.h"
 #include "train/trainer.h"
 #include "train/validation_categories.h"
 #include "view/symmetry.h"
 
 namespace svnet::train {
+using frame::FrameChoice;
 using io::Checkpoint;
 using models::Backbone;
 
@@ -25,8 +29,9 @@ namespace {
 /// The fingerprint of the model that this configuration leads to.
 std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
   const Config& config = run.config;
-  const std::string scores =
-      scores_fingerprint(features.fingerprint(config.scores.backbone, config.scores.layer), config);
+  const std::string scores = wanted_scores_fingerprint(config, features);
+  if (config.sv_net.frame == FrameChoice::axis)
+    return model_fingerprint(train::fingerprint(features.frames(config.sv_net.depth)), scores, config);
   return model_fingerprint(features.fingerprint(config.sv_net.backbone, config.sv_net.layer), scores, config);
 }
 
@@ -122,9 +127,23 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
                        model.head_parameters);
 }
 
+/// A model in the frame `axis`.
+Model make_axis_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint) {
+  const Config& config = run.config;
+  const RidgeHead head =
+      fit_ridge_head(run.dataset, features.frames(config.sv_net.depth), scores, run.training_categories(),
+                     config.sv_net.target, config.sv_net.depth, run.seed());
+  run.say(joined("SV-net: ridge regression of ", head.fit.weights.size(), " inputs, penalty ", head.fit.penalty,
+                 ", explains ", 100 * (1 - head.fit.error), " % of the variance within poses of categories left out"));
+  Model model = model_of(head);
+  model.input_fingerprint = fingerprint;
+  return model;
+}
+
 Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint,
                  Resume resume) {
   const Config& config = run.config;
+  if (config.sv_net.frame == FrameChoice::axis) return make_axis_model(run, features, scores, fingerprint);
   const Backbone& backbone = features.backbone(config.sv_net.backbone, config.sv_net.layer).backbone;
   Model model = untrained_model(config, backbone, fingerprint);
 

@@ -1,14 +1,20 @@
 #include "train/stages/options.h"
 
 #include "base/error.h"
+#include "semantics/on_policy_weights.h"
 #include "view/symmetry.h"
 
 namespace svnet::train {
 
-std::string sampler_text(const Config::Scores& s) {
+std::string sampler_text(const Config::Scores& s, bool on_policy) {
   const auto bound = [](Index value) { return value == 0 ? std::string("all") : std::to_string(value); };
+  const semantics::OnPolicyOptions policy;
+  const std::string how = on_policy
+                              ? joined(" on-policy (softmax of predictions over effectively ", policy.effective_share,
+                                       " of the views, ", policy.uniform_share, " uniform)")
+                              : "";
   return joined("uniform; categories ", s.min_categories, " to ", bound(s.max_categories), ", objects ", s.min_objects,
-                " to ", bound(s.max_objects), ", one pose, one view; singletons ", name_of(s.singletons));
+                " to ", bound(s.max_objects), ", one pose, one view", how, "; singletons ", name_of(s.singletons));
 }
 
 semantics::ScoreOptions score_options(const Config& config, Index dimension) {

@@ -9,8 +9,8 @@ namespace svnet::train {
 
 // From a configuration to the options of the stages.
 
-/// How problems are drawn, in the words of scores files.
-std::string sampler_text(const Config::Scores& config);
+/// How problems are drawn, in the words of scores files: views uniformly or on-policy.
+std::string sampler_text(const Config::Scores& config, bool on_policy = false);
 
 /// From `config.scores` and `config.seed`. `dimension`: of the features.
 semantics::ScoreOptions score_options(const Config& config, Index dimension);

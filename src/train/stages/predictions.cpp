@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/error.h"
 #include "predict/score_head.h"
 #include "train/view_inputs.h"
 
@@ -21,9 +22,31 @@ std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features,
       ImageInputs::Options{.orientations = model.symmetries, .flat = true});
 }
 
-}  // namespace
+/// The camera poses of the views of a pose.
+std::vector<view::CameraPose> candidates(const ViewDataset& dataset, Index pose) {
+  std::vector<view::CameraPose> poses;
+  for (const View& view : dataset.views_of(pose))
+    poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+  return poses;
+}
 
-std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_stage, const Model& model) {
+/// In the frame `axis`.
+std::vector<double> axis_scores(const Run& run, FeaturesStage& features, const Model& model) {
+  const predict::ScoreHead head(model, run.inference);
+  const std::vector<frame::TopFrame>& frames = features.frames(model.depth);
+  std::vector<double> predicted;
+  for (std::size_t pose = 0; pose < frames.size(); ++pose) {
+    const frame::TopFrameValues values = frame::to_values(frames[pose]);
+    Tensor top = Tensor::empty({1, head.feature_count()});
+    std::copy(values.begin(), values.end(), top.data<float>());
+    const std::vector<float> scores = head.scores(top, candidates(run.dataset, static_cast<Index>(pose)));
+    predicted.insert(predicted.end(), scores.begin(), scores.end());
+  }
+  return predicted;
+}
+
+/// In the frame `camera`.
+std::vector<double> camera_scores(const Run& run, FeaturesStage& features_stage, const Model& model) {
   const std::unique_ptr<ViewInputs> inputs = head_inputs(run, features_stage, model);
   const predict::ScoreHead head(model, run.inference);
   const Index dimension = head.feature_count();
@@ -40,14 +63,23 @@ std::vector<double> predicted_scores(const Run& run, FeaturesStage& features_sta
     for (Index pose = first; pose < last; ++pose) {
       Tensor top = Tensor::empty({1, dimension});
       std::copy_n(features.data<float>() + (pose - first) * dimension, dimension, top.data<float>());
-      std::vector<view::CameraPose> candidates;
-      for (const View& view : run.dataset.views_of(pose))
-        candidates.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
-      const std::vector<float> scores = head.scores(top, candidates);
+      const std::vector<float> scores = head.scores(top, candidates(run.dataset, pose));
       predicted.insert(predicted.end(), scores.begin(), scores.end());
     }
   }
   return predicted;
+}
+
+}  // namespace
+
+std::vector<double> predicted_scores(const Run& run, FeaturesStage& features, const Model& model) {
+  switch (model.frame) {
+    case frame::FrameChoice::camera:
+      return camera_scores(run, features, model);
+    case frame::FrameChoice::axis:
+      return axis_scores(run, features, model);
+  }
+  fail("[predictions] the model has an unknown frame");
 }
 
 }  // namespace svnet::train

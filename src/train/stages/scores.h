@@ -7,14 +7,23 @@
 #include "data/view_dataset.h"
 #include "io/views/features_file.h"
 #include "io/views/scores_file.h"
+#include "semantics/clustering_problems.h"
 #include "train/config/config.h"
 #include "train/stages/features.h"
 #include "train/stages/resume.h"
+#include "train/stages/round_predictor.h"
 
 namespace svnet::train {
 
 /// The second stage: Monte-Carlo scores of every view, in scores.h5. Views of held-out categories have none. Resumes
 /// from the snapshot of an interrupted run if its fingerprint matches.
+///
+/// With several backbones, scores-<backbone>.h5 are the scores of each, and scores.h5 is their mean. With
+/// scores.rounds, scores are made again, N times: `predict` is given the scores of the round before, the views of each
+/// pose are drawn by semantics::on_policy_weights of what it returns, and the files end in -round-<n>.h5. Returns the
+/// scores of the last round.
+Scores scores_stage(const Run& run, FeaturesStage& features, const RoundPredictor& predict);
+/// With the predictions of sv_net_round_predictor.
 Scores scores_stage(const Run& run, FeaturesStage& features);
 
 /// Options that do not change the scores.
@@ -24,12 +33,12 @@ struct ScoringOptions {
   Communicator& communicator = SingleProcess::shared();  ///< shares the work; the root process reads and writes files
 };
 
-/// Computes the scores of every view with `config.scores` and `config.seed`. Views of excluded categories have none.
-/// Writes a snapshot to snapshot_path(path) from time to time. Requires: the rows of the features are the dataset's
-/// views.
+/// Computes the scores of every view with `config.scores` and `config.seed`, but for rounds: views are drawn by
+/// `weights`, uniformly if it is empty. Views of excluded categories have none. Writes a snapshot to
+/// snapshot_path(path) from time to time. Requires: the rows of the features are the dataset's views.
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
-                   const ScoringOptions& options);
+                   const ScoringOptions& options, const semantics::ViewWeights& weights = {});
 
 /// Writes the scores to `path` and removes the snapshot that make_scores left beside it.
 void write_made_scores(const std::filesystem::path& path, const Scores& scores);

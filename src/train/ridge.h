@@ -1,0 +1,43 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "base/index.h"
+
+namespace svnet::train {
+
+/// Examples of a ridge regression: rows of inputs, what they should give, and where they belong.
+struct RidgeExamples {
+  Index inputs = 0;
+  std::vector<double> x{};               ///< (examples, inputs)
+  std::vector<double> y{};               ///< (examples)
+  std::vector<double> weight{};          ///< (examples) > 0: how much is known of y
+  std::vector<std::int32_t> pose{};      ///< (examples) examples of a pose are neighbours
+  std::vector<std::int32_t> category{};  ///< (examples)
+};
+
+struct RidgeOptions {
+  /// Per input: whether it has the small penalty kSmallPenalty instead of the one that cross-validation chooses.
+  std::vector<bool> small_penalty{};
+  std::uint64_t seed = 0;  ///< of the folds
+};
+
+/// A linear function of the inputs.
+struct RidgeFit {
+  std::vector<double> weights;  ///< (inputs)
+  double bias = 0;              ///< so that the mean prediction of the examples is 0
+  double penalty = 0;           ///< of the inputs without the small one, relative to the mean of their squares
+  double error = 0;             ///< mean squared error of the left-out categories, relative to predicting 0
+};
+
+/// Penalties are relative to the mean of the inputs' squares, each kind of input to its own.
+inline constexpr double kSmallPenalty = 0.01;
+inline constexpr double kPenalties[] = {1, 10, 100, 1000};
+
+/// Fits, in closed form, differences within poses: the weighted mean of each pose is subtracted from its inputs and
+/// from y (fixed effects of poses), so what does not depend on the camera does not matter. The penalty is the one of
+/// kPenalties with the smallest error in five folds over categories, or over as many as there are. Throws Error if
+/// there are fewer than 2 categories or a value is not finite. Has the same bits for any number of threads.
+RidgeFit fit_ridge(const RidgeExamples& examples, const RidgeOptions& options);
+
+}  // namespace svnet::train

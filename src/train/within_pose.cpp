@@ -1,0 +1,65 @@
+#include "train/within_pose.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace svnet::train {
+namespace {
+
+/// Ranks from 0 on; equal values share the mean of their ranks.
+std::vector<double> ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return values[i] < values[j]; });
+  std::vector<double> ranks(values.size());
+  for (std::size_t begin = 0, end; begin < order.size(); begin = end) {
+    for (end = begin; end < order.size() && values[order[end]] == values[order[begin]];) ++end;
+    for (std::size_t i = begin; i < end; ++i) ranks[order[i]] = static_cast<double>(begin + end - 1) / 2;
+  }
+  return ranks;
+}
+
+}  // namespace
+
+double rank_correlation(std::span<const double> a, std::span<const double> b) {
+  const std::vector<double> x = ranks(a), y = ranks(b);
+  const double mean = static_cast<double>(x.size() - 1) / 2;
+  double xy = 0, xx = 0, yy = 0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    xy += (x[i] - mean) * (y[i] - mean);
+    xx += (x[i] - mean) * (x[i] - mean);
+    yy += (y[i] - mean) * (y[i] - mean);
+  }
+  return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
+}
+
+WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
+                       const std::vector<bool>& categories) {
+  WithinPose sums;
+  for (const auto& pose : dataset.poses) {
+    if (!categories[static_cast<std::size_t>(pose.category)]) continue;
+    std::vector<double> x, y;
+    double top = std::numeric_limits<double>::quiet_NaN();
+    for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
+      const auto view = static_cast<std::size_t>(v);
+      if (!std::isfinite(scores[view])) continue;
+      x.push_back(predicted[view]);
+      y.push_back(scores[view]);
+      if (v == pose.top_view) top = scores[view];
+    }
+    if (y.size() < 3) continue;
+    ++sums.poses;
+    const double chosen = y[static_cast<std::size_t>(std::max_element(x.begin(), x.end()) - x.begin())];
+    sums.spearman += rank_correlation(x, y);
+    sums.regret += *std::max_element(y.begin(), y.end()) - chosen;
+    sums.better_than_top += chosen > top ? 1 : 0;
+    sums.better_than_rand += chosen > std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size()) ? 1 : 0;
+  }
+  const auto count = static_cast<double>(sums.poses);
+  for (double* value : {&sums.spearman, &sums.regret, &sums.better_than_top, &sums.better_than_rand}) *value /= count;
+  return sums;
+}
+
+}  // namespace svnet::train
