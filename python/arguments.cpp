@@ -170,6 +170,18 @@ Image image(const char* function, const py::object& given) {
   return {pixels.shape(0), pixels.shape(1), {pixels.data(), pixels.data() + pixels.size()}};
 }
 
+DepthImage depth_image(const char* function, const py::object& given, Index height, Index width) {
+  const py::array array = any_array(function, "depth", given, "numbers (H, W)");
+  check_numbers(function, "depth", array);
+  check(array.ndim() == 2 && array.shape(0) == height && array.shape(1) == width, "[", function, "] depth has shape ",
+        shape_text(array), "; expects (", height, ", ", width, "), that of the image, in metres");
+  const Array<float> metres(array);
+  DepthImage depth{height, width, {metres.data(), metres.data() + metres.size()}};
+  for (float& value : depth.metres)
+    if (!std::isfinite(value) || value < 0) value = 0;
+  return depth;
+}
+
 std::vector<CameraPose> camera_poses(const char* function, const py::object& given) {
   const py::array array = any_array(function, "angles_deg", given, "numbers (M, 2)");
   check_numbers(function, "angles_deg", array);

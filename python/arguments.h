@@ -12,6 +12,7 @@
 #include "base/enum_names.h"
 #include "base/index.h"
 #include "base/text.h"
+#include "image/depth_image.h"
 #include "image/image.h"
 #include "semantics/distances.h"
 #include "view/camera_pose.h"
@@ -55,6 +56,10 @@ Array<std::uint8_t> images(const char* function, const pybind11::object& given);
 
 /// A copy of an image (H, W, 3) of uint8 with at least one pixel.
 Image image(const char* function, const pybind11::object& given);
+
+/// A copy of a depth image, from any array-like (height, width) of floats or integers in metres; what is not a positive
+/// number is not measured.
+DepthImage depth_image(const char* function, const pybind11::object& given, Index height, Index width);
 
 /// Camera poses, from any array-like (M, 2) of integers or floats: theta and phi in degrees, all in range; M >= 1. The
 /// message says the index of a wrong pose.

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <optional>
 
 #include "arguments.h"
 #include "base/error.h"
@@ -36,7 +37,7 @@ Raises svnet.Error for a file that cannot be read, is truncated, has a damaged h
 finite, or is not a model.
 )";
 
-constexpr const char* kScoreDoc = R"(score(self, image, angles_deg)
+constexpr const char* kScoreDoc = R"(score(self, image, angles_deg, depth=None)
 --
 
 Predicts how informative the view from each camera pose is.
@@ -47,6 +48,8 @@ image : (H, W, 3) uint8, RGB, the object from above; any size and strides, not p
 angles_deg : (M, 2) integers or floats, M >= 1: azimuth theta in [-360, 720] (a full turn changes nothing) and elevation
     phi in [0, 90] of each camera pose, in degrees; (90, 90) is the top view. An angle that is out of
     range by at most 1e-4 degrees, by rounding, is taken for the bound
+depth : (H, W) floats or integers, optional: the depth of the top view in metres along the camera's axis; 0 and NaN mean
+    not measured. A model that was trained with depth (uses_depth) needs it, others ignore it
 
 Returns
 -------
@@ -58,23 +61,25 @@ svnet.Error for another dtype or shape, for an image without pixels, and for ang
 finite.
 )";
 
-constexpr const char* kBestViewDoc = R"(best_view(self, image, angles_deg)
+constexpr const char* kBestViewDoc = R"(best_view(self, image, angles_deg, depth=None)
 --
 
 The most informative of the given camera poses.
 
-image, angles_deg : as for score
+image, angles_deg, depth : as for score
 Returns (index, scores): the index (int) of the pose with the highest score, the first one in a tie; and the scores, as
 score returns them.
 Raises svnet.Error as score does.
 )";
 
 std::vector<float> scores(const Predictor& self, const char* function, const py::object& given_image,
-                          const py::object& given_angles) {
+                          const py::object& given_angles, const py::object& given_depth) {
   const Image top = image(function, given_image);
+  std::optional<DepthImage> depth;
+  if (!given_depth.is_none()) depth = depth_image(function, given_depth, top.height, top.width);
   const std::vector<view::CameraPose> poses = camera_poses(function, given_angles);
   const Computing computing;
-  const Tensor features = self.embed(top);
+  const Tensor features = self.embed(top, depth ? &*depth : nullptr);
   std::vector<float> result;
   result.reserve(poses.size());
   for (std::size_t first = 0; first < poses.size(); first += kPosesAtOnce) {
@@ -121,12 +126,14 @@ py::tuple reduced(const LoadedModel& self) {
                         py::make_tuple(py::bytes(self.contents)));
 }
 
-py::array_t<float> score(const LoadedModel& self, const py::object& image, const py::object& angles_deg) {
-  return array_of(std::span<const float>(scores(self.predictor, "Model.score", image, angles_deg)));
+py::array_t<float> score(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
+                         const py::object& depth) {
+  return array_of(std::span<const float>(scores(self.predictor, "Model.score", image, angles_deg, depth)));
 }
 
-py::tuple best_view_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg) {
-  const std::vector<float> values = scores(self.predictor, "Model.best_view", image, angles_deg);
+py::tuple best_view_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
+                       const py::object& depth) {
+  const std::vector<float> values = scores(self.predictor, "Model.best_view", image, angles_deg, depth);
   return py::make_tuple(predict::best_view(values), array_of(std::span<const float>(values)));
 }
 
@@ -144,8 +151,12 @@ void refuse_new(PyHeapTypeObject* type) {
 void bind_model(py::module_& module) {
   py::class_<LoadedModel>(module, "Model", kClassDoc, py::custom_type_setup(refuse_new))
       .def_static("load", load, kLoadDoc, py::arg("path"))
-      .def("score", score, kScoreDoc, py::arg("image"), py::arg("angles_deg"))
-      .def("best_view", best_view_of, kBestViewDoc, py::arg("image"), py::arg("angles_deg"))
+      .def("score", score, kScoreDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
+      .def("best_view", best_view_of, kBestViewDoc, py::arg("image"), py::arg("angles_deg"),
+           py::arg("depth") = py::none())
+      .def_property_readonly(
+          "uses_depth", [](const LoadedModel& self) { return self.predictor.uses_depth(); },
+          "Whether the model was trained with the depth of top views, and needs it.")
       .def_static("_from_bytes", from_bytes)
       .def("__reduce__", reduced)
       .def("__repr__", [](const LoadedModel& self) {

@@ -1,10 +1,12 @@
 // svnet-predict: which camera poses show the most of an object, from its top image.
 #include <iomanip>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "command/command.h"
 #include "image/oriented.h"
 #include "io/files/atomic_file.h"
+#include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "io/views/pose_list_file.h"
 #include "predict/half_sphere_plot.h"
@@ -52,12 +54,18 @@ int main(int argc, char** argv) {
                   "Predicts from an object's top image how much views from candidate camera poses would say about it, "
                   "and prints the poses (theta and phi in degrees) with their scores, best first.",
                   "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
-  fs::path model, image, poses_file, plot;
+  fs::path model, image, depth_file, poses_file, plot;
   bool grid = false, json = false;
   std::string exif{name_of(ExifOrientation::ignore)};
   command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
   command.add("--image", image, "The object from above: a PNG, JPEG or WebP image of any size")
       .required()
+      .value_name("FILE");
+  command
+      .add("--depth", depth_file,
+           "The depth image of the top view (16-bit PNG in millimetres, or .npy in metres), for models that were "
+           "trained "
+           "with depth")
       .value_name("FILE");
   const Argument poses_option =
       command.add("--poses", poses_file, "The candidates: a CSV file with the header theta,phi");
@@ -77,10 +85,16 @@ int main(int argc, char** argv) {
            "no scores are printed")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
-    if (!plot.empty()) check_can_be_written(plot, {model, image, poses_file}, io::Streams::allowed);
+    if (!plot.empty()) check_can_be_written(plot, {model, image, depth_file, poses_file}, io::Streams::allowed);
     const std::vector<CameraPose> poses = poses_file.empty() ? view::paper_grid() : io::read_pose_list(poses_file);
     const predict::Predictor predictor(model, inference_options_from_environment());
-    const std::vector<float> scores = predictor.scores(predictor.embed(top_image(image, exif, console)), poses);
+    std::optional<DepthImage> depth;
+    if (!depth_file.empty()) depth = io::read_depth(depth_file);
+    if (depth && !predictor.uses_depth()) console.line("--depth is ignored: the model was trained without depth");
+    check(depth || !predictor.uses_depth(), model.string(),
+          ": was trained with depth; give the depth image of the top view by --depth");
+    const Image top = top_image(image, exif, console);
+    const std::vector<float> scores = predictor.scores(predictor.embed(top, depth ? &*depth : nullptr), poses);
     if (!plot.empty()) io::write_png(plot, predict::half_sphere_plot(poses, scores));
     if (!io::is_standard_output(plot)) console.result(json ? json_text(poses, scores) : table_text(poses, scores));
   });

@@ -89,6 +89,17 @@ SVNET_API size_t svnet_feature_count(const svnet_model* model);
 SVNET_API svnet_status svnet_embed(const svnet_model* model, const uint8_t* pixels, int32_t height, int32_t width,
                                    size_t stride_bytes, svnet_pixel_format format, float* features);
 
+/* Whether the model was trained with the depth of top views: 1, or 0 if not or for NULL. Such a model needs
+ * svnet_embed_with_depth; svnet_embed returns SVNET_INVALID_ARGUMENT. */
+SVNET_API int svnet_uses_depth(const svnet_model* model);
+
+/* svnet_embed with the depth of the top view: `depth_m` is height * width floats, rows from the top without gaps, in
+ * metres along the camera's axis; 0, negative numbers and NaN mean not measured. A model that does not use depth
+ * ignores it. */
+SVNET_API svnet_status svnet_embed_with_depth(const svnet_model* model, const uint8_t* pixels, int32_t height,
+                                              int32_t width, size_t stride_bytes, svnet_pixel_format format,
+                                              const float* depth_m, float* features);
+
 /* Computes the scores of `count` poses. `features`: svnet_feature_count(model) finite floats, from svnet_embed with the
  * same model. `poses_deg`: 2 * count doubles, theta and phi of each pose. `scores` receives count floats. With count 0
  * nothing is read or written, and poses_deg and scores may be NULL. */

@@ -83,9 +83,23 @@ class ViewModel {
   // Returns the feature_count() features of a top image.
   std::vector<float> embed(const ImageView& image) const {
     std::vector<float> features(feature_count());
-    const std::size_t tight = static_cast<std::size_t>(image.width) * detail::pixel_bytes(image.format);
-    detail::check(svnet_embed(model_.get(), image.pixels, image.height, image.width,
-                              image.stride_bytes == 0 ? tight : image.stride_bytes, image.format, features.data()));
+    detail::check(svnet_embed(model_.get(), image.pixels, image.height, image.width, stride_of(image), image.format,
+                              features.data()));
+    return features;
+  }
+
+  bool uses_depth() const { return svnet_uses_depth(model_.get()) != 0; }
+
+  // The same with the depth of the top view in metres, height * width floats as for svnet_embed_with_depth.
+  std::vector<float> embed(const ImageView& image, const std::vector<float>& depth_m) const {
+    if (image.height < 0 || image.width < 0 ||
+        depth_m.size() != static_cast<std::size_t>(image.height) * static_cast<std::size_t>(image.width))
+      throw StatusError(SVNET_INVALID_ARGUMENT, "there are " + std::to_string(depth_m.size()) +
+                                                    " depth values, the image has " + std::to_string(image.height) +
+                                                    "x" + std::to_string(image.width) + " pixels");
+    std::vector<float> features(feature_count());
+    detail::check(svnet_embed_with_depth(model_.get(), image.pixels, image.height, image.width, stride_of(image),
+                                         image.format, depth_m.data(), features.data()));
     return features;
   }
 
@@ -111,6 +125,11 @@ class ViewModel {
   struct Free {
     void operator()(svnet_model* model) const { svnet_model_free(model); }
   };
+
+  static std::size_t stride_of(const ImageView& image) {
+    if (image.stride_bytes != 0) return image.stride_bytes;
+    return static_cast<std::size_t>(image.width) * detail::pixel_bytes(image.format);
+  }
 
   const float* numbers(const std::vector<float>& features) const {
     if (features.size() != feature_count())

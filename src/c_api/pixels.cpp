@@ -1,6 +1,7 @@
 #include "pixels.h"
 
 #include <array>
+#include <cmath>
 
 #include "base/error.h"
 
@@ -12,7 +13,7 @@ struct Layout {
   std::array<std::size_t, 3> offset;  // of red, green, blue
 };
 
-Layout layout_of(svnet_pixel_format format) {
+Layout layout_of(const char* function, svnet_pixel_format format) {
   switch (static_cast<int>(format)) {
     case SVNET_RGB8:
       return {3, {0, 1, 2}};
@@ -25,20 +26,20 @@ Layout layout_of(svnet_pixel_format format) {
     case SVNET_GRAY8:
       return {1, {0, 0, 0}};
     default:
-      fail("[svnet_embed] there is no pixel format ", static_cast<int>(format));
+      fail("[", function, "] there is no pixel format ", static_cast<int>(format));
   }
 }
 
 }  // namespace
 
-Image image_of(const std::uint8_t* pixels, std::int32_t height, std::int32_t width, std::size_t stride_bytes,
-               svnet_pixel_format format) {
-  const Layout layout = layout_of(format);
-  check(height > 0 && width > 0, "[svnet_embed] the image is ", height, "x", width, ", expected at least one pixel");
-  check(Index{height} * width <= kMostPixels, "[svnet_embed] the image is ", height, "x", width,
+Image image_of(const char* function, const std::uint8_t* pixels, std::int32_t height, std::int32_t width,
+               std::size_t stride_bytes, svnet_pixel_format format) {
+  const Layout layout = layout_of(function, format);
+  check(height > 0 && width > 0, "[", function, "] the image is ", height, "x", width, ", expected at least one pixel");
+  check(Index{height} * width <= kMostPixels, "[", function, "] the image is ", height, "x", width,
         ", larger than 64 megapixels");
   const std::size_t row_bytes = static_cast<std::size_t>(width) * layout.bytes;
-  check(stride_bytes >= row_bytes, "[svnet_embed] stride_bytes is ", stride_bytes, ", less than the ", row_bytes,
+  check(stride_bytes >= row_bytes, "[", function, "] stride_bytes is ", stride_bytes, ", less than the ", row_bytes,
         " bytes of a row");
   Image image{height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(Index{height} * width * 3))};
   std::uint8_t* out = image.rgb.data();
@@ -48,6 +49,13 @@ Image image_of(const std::uint8_t* pixels, std::int32_t height, std::int32_t wid
       for (const std::size_t offset : layout.offset) *out++ = in[offset];
   }
   return image;
+}
+
+DepthImage depth_image_of(const float* metres, Index height, Index width) {
+  DepthImage depth{.height = height, .width = width, .metres = {metres, metres + height * width}};
+  for (float& value : depth.metres)
+    if (!std::isfinite(value) || value < 0) value = 0;
+  return depth;
 }
 
 }  // namespace svnet

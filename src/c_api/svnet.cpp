@@ -115,13 +115,30 @@ size_t svnet_feature_count(const svnet_model* model) {
   return model == nullptr ? 0 : static_cast<size_t>(model->predictor.feature_count());
 }
 
+int svnet_uses_depth(const svnet_model* model) { return model != nullptr && model->predictor.uses_depth() ? 1 : 0; }
+
+svnet_status svnet_embed_with_depth(const svnet_model* model, const uint8_t* pixels, int32_t height, int32_t width,
+                                    size_t stride_bytes, svnet_pixel_format format, const float* depth_m,
+                                    float* features) {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
+    check_given(model, "svnet_embed_with_depth", "model");
+    check_given(pixels, "svnet_embed_with_depth", "pixels");
+    check_given(depth_m, "svnet_embed_with_depth", "depth_m");
+    check_given(features, "svnet_embed_with_depth", "features");
+    const Image top = image_of("svnet_embed_with_depth", pixels, height, width, stride_bytes, format);
+    const DepthImage depth = depth_image_of(depth_m, top.height, top.width);
+    const Tensor values = model->predictor.embed(top, &depth);
+    std::copy_n(values.data<float>(), values.size(), features);
+  });
+}
+
 svnet_status svnet_embed(const svnet_model* model, const uint8_t* pixels, int32_t height, int32_t width,
                          size_t stride_bytes, svnet_pixel_format format, float* features) {
   return computed(SVNET_INVALID_ARGUMENT, [&] {
     check_given(model, "svnet_embed", "model");
     check_given(pixels, "svnet_embed", "pixels");
     check_given(features, "svnet_embed", "features");
-    const Tensor values = model->predictor.embed(image_of(pixels, height, width, stride_bytes, format));
+    const Tensor values = model->predictor.embed(image_of("svnet_embed", pixels, height, width, stride_bytes, format));
     std::copy_n(values.data<float>(), values.size(), features);
   });
 }

@@ -3,9 +3,11 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <thread>
 
 #include "base/version.h"
+#include "frame/top_view.h"
 #include "predict/predictor.h"
 #include "shell.h"
 #include "small_model.h"
@@ -21,10 +23,10 @@ using namespace svnet::view;
 namespace {
 
 struct Loaded {
-  Loaded() {
+  explicit Loaded(const Model& written = small_model()) {
     const TemporaryFolder folder;
     const auto path = folder.path() / "model.safetensors";
-    write_model(path, small_model());
+    write_model(path, written);
     REQUIRE(svnet_model_load(path.c_str(), &model) == SVNET_OK);
   }
   ~Loaded() { svnet_model_free(model); }
@@ -186,6 +188,69 @@ TEST_CASE("a model that cannot be loaded is NULL and says why") {
   const std::string endless(5000, 'x');
   CHECK(svnet_model_load(endless.c_str(), &model) == SVNET_INVALID_MODEL);
   CHECK(std::strlen(svnet_last_error()) == 1023);
+}
+
+TEST_CASE("a model that uses depth takes it, and is refused without it") {
+  const Model model = small_axis_model(frame::DepthChoice::heights);
+  const Loaded loaded(model);
+  svnet_model* const m = loaded.model;
+  CHECK(svnet_uses_depth(m) == 1);
+  CHECK(svnet_uses_depth(nullptr) == 0);
+  const frame::Shape shape = frame::wedge(1.3, 0.5, 70);
+  const Image image = frame::picture_of(shape);
+  DepthImage depth = frame::depth_of(shape, [](double, double) { return 0.03; });
+  const Predictor predictor(model);
+  const Tensor expected = predictor.embed(image, &depth);
+  REQUIRE(svnet_feature_count(m) == static_cast<std::size_t>(expected.size()));
+  std::vector<float> features(svnet_feature_count(m), 0.25f);
+  const auto embed = [&](const float* metres) {
+    return svnet_embed_with_depth(m, image.rgb.data(), 224, 224, 672, SVNET_RGB8, metres, features.data());
+  };
+  REQUIRE(embed(depth.metres.data()) == SVNET_OK);
+  CHECK(std::equal(features.begin(), features.end(), expected.data<float>()));
+  std::vector<float> scores(3);
+  const double pairs[] = {0, 45, 90, 60, 90, 90};
+  REQUIRE(svnet_score(m, features.data(), pairs, 3, scores.data()) == SVNET_OK);
+  CHECK(scores == predictor.scores(expected, std::vector<CameraPose>{{0, 45}, {90, 60}, {90, 90}}));
+
+  // Numbers that mean "not measured" are all the same.
+  DepthImage holes = depth, odd = depth;
+  const float values[] = {std::nanf(""), -1, std::numeric_limits<float>::infinity()};
+  for (std::size_t i = 0; i < 2000; ++i) {
+    holes.metres[i * 20] = 0;
+    odd.metres[i * 20] = values[i % 3];
+  }
+  REQUIRE(embed(holes.metres.data()) == SVNET_OK);
+  const std::vector<float> with_holes = features;
+  REQUIRE(embed(odd.metres.data()) == SVNET_OK);
+  CHECK(features == with_holes);
+
+  const std::vector<float> untouched(features.size(), 0.25f);
+  features = untouched;
+  CHECK(svnet_embed(m, image.rgb.data(), 224, 224, 672, SVNET_RGB8, features.data()) == SVNET_INVALID_ARGUMENT);
+  CHECK_THAT(svnet_last_error(), Catch::Contains("the model was trained with depth"));
+  CHECK(embed(nullptr) == SVNET_INVALID_ARGUMENT);
+  CHECK_THAT(svnet_last_error(), Catch::StartsWith("[svnet_embed_with_depth] depth_m"));
+  CHECK(svnet_embed_with_depth(m, image.rgb.data(), 224, 224, 600, SVNET_RGB8, depth.metres.data(), features.data()) ==
+        SVNET_INVALID_ARGUMENT);
+  CHECK_THAT(svnet_last_error(), Catch::StartsWith("[svnet_embed_with_depth] stride_bytes is 600"));
+  const std::vector<float> nothing(224 * 224, 0.0f);
+  CHECK(embed(nothing.data()) == SVNET_INVALID_ARGUMENT);
+  CHECK(features == untouched);
+}
+
+TEST_CASE("a model that does not use depth ignores it") {
+  const Image image = small_image();
+  const std::vector<float> depth(70 * 50, 0.5f);
+  for (const Model& model : {small_model(), small_axis_model()}) {
+    const Loaded loaded(model);
+    CHECK(svnet_uses_depth(loaded.model) == 0);
+    const std::vector<float> expected = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
+    std::vector<float> features(expected.size());
+    REQUIRE(svnet_embed_with_depth(loaded.model, image.rgb.data(), 70, 50, 150, SVNET_RGB8, depth.data(),
+                                   features.data()) == SVNET_OK);
+    CHECK(features == expected);
+  }
 }
 
 TEST_CASE("each thread has its own last error, and the number of threads changes no bit") {

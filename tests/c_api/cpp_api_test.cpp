@@ -66,3 +66,36 @@ TEST_CASE("the C++ interface throws what the C interface reports") {
   CHECK_THROWS_WITH(svnet::ViewModel("/nonexistent/model"), Catch::StartsWith("/nonexistent/model: cannot be read"));
   CHECK_THROWS_WITH(svnet::set_threads(0), Catch::Contains("threads"));
 }
+
+TEST_CASE("the C++ interface takes the depth of the top view") {
+  const TemporaryFolder folder;
+  const std::string path = folder.path() / "model.safetensors";
+  write_depth_model(path);
+  const svnet::ViewModel model(path);
+  CHECK(model.uses_depth());
+  CHECK_FALSE(small_view_model().uses_depth());
+
+  // A box on a table.
+  constexpr std::int32_t kSide = 120;
+  std::vector<std::uint8_t> grey(kSide * kSide, 120);
+  std::vector<float> depth(kSide * kSide, 0.5f);
+  for (std::int32_t row = 50; row < 70; ++row)
+    for (std::int32_t column = 30; column < 95; ++column) {
+      grey[static_cast<std::size_t>(row * kSide + column)] = 220;
+      depth[static_cast<std::size_t>(row * kSide + column)] = 0.47f;
+    }
+  const svnet::ImageView image{grey.data(), kSide, kSide, SVNET_GRAY8};
+  const std::vector<float> features = model.embed(image, depth);
+  svnet_model* c_model = nullptr;
+  REQUIRE(svnet_model_load(path.c_str(), &c_model) == SVNET_OK);
+  std::vector<float> c_features(svnet_feature_count(c_model));
+  CHECK(svnet_embed_with_depth(c_model, grey.data(), kSide, kSide, kSide, SVNET_GRAY8, depth.data(),
+                               c_features.data()) == SVNET_OK);
+  svnet_model_free(c_model);
+  CHECK(features == c_features);
+  CHECK(model.best_view(features, {{0, 45}, {90, 45}}).score > 0);
+
+  CHECK_THROWS_WITH(model.embed(image), Catch::Contains("the model was trained with depth"));
+  depth.pop_back();
+  CHECK_THROWS_WITH(model.embed(image, depth), "there are 14399 depth values, the image has 120x120 pixels");
+}

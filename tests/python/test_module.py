@@ -30,8 +30,8 @@ def test_signatures_are_those_of_the_documentation():
     )
     assert str(inspect.signature(svnet.Backbone)) == "(name, weights=None, layer=None, seed=0)"
     assert str(inspect.signature(svnet.Model.load)) == "(path)"
-    assert str(inspect.signature(svnet.Model.score)) == "(self, image, angles_deg)"
-    assert str(inspect.signature(svnet.Model.best_view)) == "(self, image, angles_deg)"
+    assert str(inspect.signature(svnet.Model.score)) == "(self, image, angles_deg, depth=None)"
+    assert str(inspect.signature(svnet.Model.best_view)) == "(self, image, angles_deg, depth=None)"
 
 
 def test_version():

@@ -2,6 +2,8 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "frame/top_view.h"
+#include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "predict/half_sphere_plot.h"
 #include "predict/predictor.h"
@@ -127,4 +129,52 @@ TEST_CASE("svnet-predict takes angles that are out of range by rounding for the 
   const Ran rounded = place.run("model.safetensors --image top.png --poses rounded.csv --json");
   CHECK(rounded.status == 0);
   CHECK(rounded.out == exact.out);
+}
+
+TEST_CASE("svnet-predict takes the depth of the top view for a model that uses it") {
+  const Workplace place;
+  const std::filesystem::path folder = place.folder.path();
+  const Model model = small_axis_model(frame::DepthChoice::heights);
+  write_model(folder / "depth.safetensors", model);
+  const frame::Shape shape = frame::wedge(1.3, 0.5, 70);
+  write_png(folder / "wedge.png", frame::picture_of(shape));
+  write_depth_png(folder / "wedge_depth.png", frame::depth_of(shape, [](double, double) { return 0.03; }));
+
+  const Ran ran = place.run("depth.safetensors --image wedge.png --depth wedge_depth.png --json");
+  CHECK(ran.status == 0);
+  CHECK(ran.err.empty());
+  const DepthImage depth = read_depth(folder / "wedge_depth.png");
+  const Predictor predictor(model);
+  const auto scores = predictor.scores(predictor.embed(frame::picture_of(shape), &depth), paper_grid());
+  const auto best = nlohmann::json::parse(ran.out).at("best");
+  const std::size_t expected = best_view(scores);
+  CHECK(best.at("theta_deg") == paper_grid()[expected].theta_deg);
+  CHECK(best.at("score").get<double>() == Approx(scores[expected]).margin(1e-6));
+
+  const Ran missing = place.run("depth.safetensors --image wedge.png --plot plot.png");
+  CHECK(missing.status == 1);
+  CHECK(missing.out.empty());
+  CHECK(missing.err ==
+        "svnet-predict: depth.safetensors: was trained with depth; give the depth image of the top view by --depth\n");
+  CHECK_FALSE(std::filesystem::exists(folder / "plot.png"));
+  const Ran none = place.run("depth.safetensors --image wedge.png --depth none.png");
+  CHECK(none.status == 1);
+  CHECK_THAT(none.err, Catch::StartsWith("svnet-predict: none.png: "));
+  const Ran colours = place.run("depth.safetensors --image wedge.png --depth wedge.png");
+  CHECK(colours.status == 1);
+  CHECK_THAT(colours.err, Catch::StartsWith("svnet-predict: wedge.png: "));
+}
+
+TEST_CASE("svnet-predict says that it ignores depth if the model does not use it") {
+  const Workplace place;
+  write_depth_png(place.folder.path() / "depth.png", {8, 8, std::vector<float>(64, 0.5f)});
+  write_model(place.folder.path() / "axis.safetensors", small_axis_model());
+  for (const std::string model : {"model.safetensors", "axis.safetensors"}) {
+    const Ran plain = place.run(model + " --image top.png"),
+              with = place.run(model + " --image top.png --depth depth.png");
+    CHECK(plain.err.empty());
+    CHECK(with.status == 0);
+    CHECK(with.out == plain.out);
+    CHECK(with.err == "--depth is ignored: the model was trained without depth\n");
+  }
 }

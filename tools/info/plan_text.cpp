@@ -70,11 +70,13 @@ std::string backbone_plan(const std::string& name, const std::string& layer, Ind
 
 std::string model_plan(const std::filesystem::path& file, Index batch, const InferenceOptions& options) {
   const Model model = io::read_model(file);
+  const Inference head(model.head, model.head_parameters, model.head.output(), options);
+  const std::string head_text = joined("SV-net\n", plan_text(head, batch));
+  if (model.frame == frame::FrameChoice::axis) return head_text;
   const Graph& graph = model.backbone_graph;
   const Inference backbone(graph, model.backbone_parameters, graph.find(model.backbone_output), options);
-  const Inference head(model.head, model.head_parameters, model.head.output(), options);
   return joined(printable(model.backbone), " to ", printable(model.backbone_output), "\n", plan_text(backbone, batch),
-                "\n\nSV-net\n", plan_text(head, batch));
+                "\n\n", head_text);
 }
 
 }  // namespace svnet
