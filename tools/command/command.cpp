@@ -131,8 +131,8 @@ std::optional<int> Command::parse(int argc, char** argv, const Communicator& com
 std::string Command::usage_text(const std::string& message) const { return message + "; see " + name_ + " --help"; }
 
 int Command::report(Console& console, const std::string& message, int status, const Communicator& communicator) const {
-  const timespec second{1, 0};
-  if (!communicator.is_root() && ::nanosleep(&second, nullptr) != 0) return status;  // a signal ended the wait
+  const timespec wait{5, 0};  // on a busy machine the root process takes seconds to end the others
+  if (!communicator.is_root() && ::nanosleep(&wait, nullptr) != 0) return status;  // a signal ended the wait
   console.error(name_ + ": " + message);
   return status;
 }

@@ -62,9 +62,9 @@ class Command {
   /// Returns the exit status: 0 done, 1 failed (one line on stderr says what, where and what to do), 2 wrong usage,
   /// 130 interrupted.
   ///
-  /// In a communicator only the root process prints results and progress. If another process fails, it waits one second
-  /// before it prints its error: if the root process fails too, it ends all processes in that second, and the error
-  /// appears once.
+  /// In a communicator only the root process prints results and progress. If another process fails, it waits five
+  /// seconds before it prints its error: if the root process fails too, it ends all processes in that time, and the
+  /// error appears once.
   int run(int argc, char** argv, const std::function<void(Console&)>& body,
           const Communicator& communicator = SingleProcess::shared());
 
