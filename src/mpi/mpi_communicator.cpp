@@ -73,10 +73,11 @@ int main_with_communicator(int argc, char** argv, const char* name,
   }
   MpiCommunicator communicator;
   if (const int launched = launched_processes(); communicator.size() == 1 && launched > 1) {
-    std::cerr << name << ": its launcher says that it started " << launched << " processes, but " << library_name()
-              << ", which this was built with, sees one, so that each would do the whole work; start it by the mpirun of "
-                 "that MPI, or as one process"
-              << std::endl;
+    std::cerr
+        << name << ": its launcher says that it started " << launched << " processes, but " << library_name()
+        << ", which this was built with, sees one, so that each would do the whole work; start it by the mpirun of "
+           "that MPI, or as one process"
+        << std::endl;
     return 1;
   }
   const int status = run(argc, argv, communicator);
