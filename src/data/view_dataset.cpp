@@ -11,6 +11,12 @@ std::span<const View> ViewDataset::views_of(Index pose) const {
                                   static_cast<std::size_t>(range.view_count));
 }
 
+std::vector<std::int32_t> ViewDataset::pose_of_view() const {
+  std::vector<std::int32_t> poses_of_views;
+  for (const View& view : views) poses_of_views.push_back(static_cast<std::int32_t>(view.pose));
+  return poses_of_views;
+}
+
 std::string ViewDataset::pose_path(Index pose) const {
   const Pose& p = poses[static_cast<std::size_t>(pose)];
   return joined(categories[static_cast<std::size_t>(p.category)], '/', objects[static_cast<std::size_t>(p.object)].name,

@@ -51,6 +51,8 @@ struct ViewDataset {
   /// The index of the top view of a pose.
   Index top_view(Index pose) const { return poses[static_cast<std::size_t>(pose)].top_view; }
   std::span<const View> views_of(Index pose) const;
+  /// The pose of every view.
+  std::vector<std::int32_t> pose_of_view() const;
   /// The path of a pose for messages, such as "mug/2/1".
   std::string pose_path(Index pose) const;
 };

@@ -1,7 +1,6 @@
 #include "train/top_frames.h"
 
-#include <bit>
-#include <optional>
+#include <algorithm>
 
 #include "base/error.h"
 #include "base/sha256.h"

@@ -13,9 +13,7 @@ namespace {
 /// The score that SV-net learns, scaled to [0, 1] among the views of each pose.
 std::vector<double> scaled_targets(const ViewDataset& dataset, const Scores& scores, Target target) {
   if (target == Target::individual) return scores.scaled;
-  std::vector<std::int32_t> pose_of_view;
-  for (const View& view : dataset.views) pose_of_view.push_back(static_cast<std::int32_t>(view.pose));
-  return semantics::scaled_per_pose(scores.global, pose_of_view);
+  return semantics::scaled_per_pose(scores.global, dataset.pose_of_view());
 }
 
 }  // namespace

@@ -49,6 +49,17 @@ double chi_square_score(const std::vector<double>& probabilities, const std::vec
   return (statistic - (cells - 1)) / std::sqrt(2 * (cells - 1));
 }
 
+/// Counts a problem that was drawn; `number` has the place in `counts` of every problem that can be drawn, by its
+/// sorted rows.
+void count(const ClusteringProblem& problem, const std::map<std::vector<std::int32_t>, std::size_t>& number,
+           std::vector<double>& counts) {
+  auto rows = problem.rows;
+  std::sort(rows.begin(), rows.end());
+  const auto found = number.find(rows);
+  REQUIRE(found != number.end());
+  ++counts[found->second];
+}
+
 }  // namespace
 
 TEST_CASE("every problem is drawn with its exact probability") {
@@ -73,11 +84,7 @@ TEST_CASE("every problem is drawn with its exact probability") {
   const int draws = 500000;
   for (int i = 0; i < draws; ++i) {
     problems.draw(51, i, problem);
-    auto rows = problem.rows;
-    std::sort(rows.begin(), rows.end());
-    const auto found = number.find(rows);
-    REQUIRE(found != number.end());
-    ++counts[found->second];
+    count(problem, number, counts);
   }
   CHECK(std::abs(chi_square_score(probabilities, counts, draws)) < 4);
 }
@@ -239,11 +246,7 @@ TEST_CASE("views are drawn in proportion to their weights, and poses as without 
       uniform.draw(59, i, same_poses);
       REQUIRE(problem.poses == same_poses.poses);
     }
-    auto rows = problem.rows;
-    std::sort(rows.begin(), rows.end());
-    const auto found = number.find(rows);
-    REQUIRE(found != number.end());
-    ++counts[found->second];
+    count(problem, number, counts);
   }
   CHECK(std::abs(chi_square_score(probabilities, counts, draws)) < 4);
 }

@@ -117,8 +117,7 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   std::vector<Selector> selectors;
   for (const SelectorKind* kind : kinds) selectors.push_back({kind->name, chosen.at(kind->name)});
   PipelineDistances distances(run.config, features);
-  std::vector<EvaluationPipeline> pipelines;
-  for (const auto& name : run.config.evaluation.pipelines) pipelines.push_back(distances.pipeline(name));
+  const std::vector<EvaluationPipeline> pipelines = distances.pipelines();
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(run.config.evaluation.problems),
                                   .seed = run.seed(),
                                   .nmi = run.config.evaluation.nmi,

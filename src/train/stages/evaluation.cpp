@@ -21,8 +21,7 @@ std::vector<Selector> selectors(const Run& run, Split split, const SelectorInput
 EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs, std::uint64_t problems,
                                   const std::optional<std::filesystem::path>& copy) {
   PipelineDistances distances(run.config, inputs.features);
-  std::vector<EvaluationPipeline> pipelines;
-  for (const auto& name : run.config.evaluation.pipelines) pipelines.push_back(distances.pipeline(name));
+  const std::vector<EvaluationPipeline> pipelines = distances.pipelines();
   const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
   const auto table = [&](const std::vector<bool>& excluded, const std::vector<Selector>& selectors,
                          const std::string& task) {

@@ -11,6 +11,12 @@ EvaluationPipeline PipelineDistances::pipeline(const std::string& name) {
   return {name, &distances, {.method = parsed.clustering, .dimension = dimension}};
 }
 
+std::vector<EvaluationPipeline> PipelineDistances::pipelines() {
+  std::vector<EvaluationPipeline> all;
+  for (const std::string& name : config_.evaluation.pipelines) all.push_back(pipeline(name));
+  return all;
+}
+
 const PipelineDistances::Distances& PipelineDistances::distances_of(const std::string& backbone) {
   const auto found = distances_.find(backbone);
   if (found != distances_.end()) return found->second;

@@ -15,6 +15,8 @@ class PipelineDistances {
 
   /// The pipeline of that name, such as "mobilenet_v2_ward". It refers to distances that live as long as this object.
   EvaluationPipeline pipeline(const std::string& name);
+  /// The pipelines of the configuration.
+  std::vector<EvaluationPipeline> pipelines();
 
  private:
   using Distances = std::pair<semantics::DistanceMatrix, Index>;  // with the features' dimension

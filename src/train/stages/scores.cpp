@@ -106,12 +106,6 @@ struct Round {
   }
 };
 
-std::vector<std::int32_t> pose_of_view(const ViewDataset& dataset) {
-  std::vector<std::int32_t> poses;
-  for (const View& view : dataset.views) poses.push_back(static_cast<std::int32_t>(view.pose));
-  return poses;
-}
-
 /// The scores by one backbone. `name` is what their file is named after: the backbone, or "" if there is only one.
 Scores scores_of_backbone(const Run& run, FeaturesStage& stage, const std::string& backbone, const std::string& name,
                           const Round& round) {
@@ -142,7 +136,7 @@ Scores mean_of(const std::vector<Scores>& parts, const std::vector<std::string>&
   scores.global = std::move(mean.global);
   scores.count = std::move(mean.count);
   scores.standard_error = std::move(mean.standard_error);
-  scores.scaled = semantics::scaled_per_pose(scores.individual, pose_of_view(dataset));
+  scores.scaled = semantics::scaled_per_pose(scores.individual, dataset.pose_of_view());
   for (std::size_t v = 0; v < scores.rank_stability.size(); ++v) {
     for (std::size_t i = 1; i < parts.size(); ++i) scores.rank_stability[v] += parts[i].rank_stability[v];
     scores.rank_stability[v] /= static_cast<double>(parts.size());
@@ -231,7 +225,7 @@ Scores scores_stage(const Run& run, FeaturesStage& features, const RoundPredicto
     const std::vector<double> predicted = predict(scores);
     check(predicted.size() == run.dataset.views.size(), "[scores] ", predicted.size(), " predictions of ",
           run.dataset.views.size(), " views");
-    Round round{.number = number, .weights = semantics::on_policy_weights(predicted, pose_of_view(run.dataset))};
+    Round round{.number = number, .weights = semantics::on_policy_weights(predicted, run.dataset.pose_of_view())};
     broadcast(round.weights, run.communicator);
     scores = scores_of_round(run, features, round);
   }
