@@ -44,7 +44,11 @@ std::vector<std::vector<std::string>> combinations(const std::vector<std::string
 struct Arguments {
   fs::path config_file, output;
   std::vector<std::string> overrides, folds, sweeps;
-  Index fold_count = 6, repeats = 1;
+  Index fold_count = 6, repeats = 1, each_choice_of = 0;
+
+  train::FoldProblems problems() const {
+    return each_choice_of > 0 ? train::FoldProblems::own_categories : train::FoldProblems::all_categories;
+  }
 };
 
 struct VariedRun {
@@ -66,6 +70,7 @@ std::vector<VariedRun> varied_runs(const Arguments& arguments, const train::Run&
 
 /// The folds of each repetition.
 std::vector<std::vector<Fold>> folds_of(const Arguments& arguments, const ViewDataset& dataset, std::uint64_t seed) {
+  if (arguments.each_choice_of > 0) return {train::each_choice_of(dataset, arguments.each_choice_of)};
   if (!arguments.folds.empty()) {
     std::vector<Fold> given;
     for (const std::string& fold : arguments.folds) given.push_back(split(fold, ','));
@@ -94,7 +99,7 @@ void cross_validate(const Arguments& arguments, Console& console) {
     for (std::size_t repeat = 0; repeat < repeats.size(); ++repeat) {
       std::string name = settings;
       if (repeats.size() > 1) name += joined(name.empty() ? "" : ", ", "repeat ", repeat + 1);
-      validations.push_back({name, train::cross_validate(run, features, repeats[repeat])});
+      validations.push_back({name, train::cross_validate(run, features, repeats[repeat], arguments.problems())});
       console.result(cross_validation_text(validations.back()));
     }
   }
@@ -118,13 +123,18 @@ int main(int argc, char** argv) {
       .one_value_per_use();
   const Argument count = command.add("--folds", arguments.fold_count, "Number of folds, drawn from the seed");
   count.value_name("K").positive().shows_default();
+  const Argument each = command.add("--each-choice-of", arguments.each_choice_of,
+                                    "Instead, holds out every choice of N categories in turn, such as all 56 choices "
+                                    "of 3 of 8, and judges each by problems of its own categories");
+  each.value_name("N").positive().excludes(count);
   command
       .add("--fold", arguments.folds,
            "Categories of one fold, separated by commas; may be given several times. Categories in no fold make one "
            "more")
       .value_name("NAMES")
       .one_value_per_use()
-      .excludes(count);
+      .excludes(count)
+      .excludes(each);
   command
       .add(
           "--sweep", arguments.sweeps,

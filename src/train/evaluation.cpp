@@ -106,12 +106,12 @@ EvaluationTable table_of(const ProblemValues& values, const std::vector<Evaluati
   return table;
 }
 
-}  // namespace
-
-EvaluationTable evaluate(const ViewDataset& dataset, const semantics::ClusteringProblems& problems,
-                         const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
-                         const EvaluationOptions& options, Parallel& parallel, const Messages& messages,
-                         const std::string& task) {
+/// Solves the problems with the numbers `first` to `last` - 1, which are of one set, and puts their values and categories
+/// into `values`.
+void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vector<EvaluationPipeline>& pipelines,
+           Index first, Index last, const EvaluationOptions& options, Parallel& parallel, Progress& progress,
+           ProblemValues& values) {
+  const semantics::ClusteringProblems& problems = set.problems;
   check(problems.poses() == static_cast<Index>(dataset.poses.size()),
         "[evaluation] the problems are of another dataset");
   std::vector<Worker> workers;
@@ -123,16 +123,11 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
     workers.push_back(std::move(worker));
   }
 
-  const std::size_t stride = pipelines.size() * selectors.size() * kMetrics.size();
-  ProblemValues values{.columns = static_cast<Index>(stride),
-                       .values = std::vector<double>(options.problems * stride),
-                       .categories = {},
-                       .first_category = {0}};
+  const std::size_t selectors = set.selectors.size(), stride = pipelines.size() * selectors * kMetrics.size();
   constexpr Index kBlock = 256;
   std::vector<std::vector<std::int32_t>> categories(kBlock);  // of each problem of a block
-  Progress progress(messages, task, static_cast<Index>(options.problems));
-  for (Index block = 0; block < static_cast<Index>(options.problems); block += kBlock) {
-    const Index size = std::min(kBlock, static_cast<Index>(options.problems) - block);
+  for (Index block = first; block < last; block += kBlock) {
+    const Index size = std::min(kBlock, last - block);
     parallel.for_chunks(size, 4, [&](Index begin, Index end, int number) {
       Worker& worker = workers[static_cast<std::size_t>(number)];
       for (Index i = block + begin; i < block + end; ++i) {
@@ -141,20 +136,19 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
             views(options.seed, Stream::selector, problem_number);
         problems.draw_poses(poses, worker.problem);
         categories[static_cast<std::size_t>(i - block)] = categories_of(dataset, worker.problem);
-        for (std::size_t s = 0; s < selectors.size(); ++s) {
-          if (selectors[s].view.empty()) {
+        for (std::size_t s = 0; s < selectors; ++s) {
+          if (set.selectors[s].view.empty()) {
             problems.draw_views(views, worker.problem);
           } else {
             worker.problem.rows.clear();
             for (std::int32_t pose : worker.problem.poses)
-              worker.problem.rows.push_back(selectors[s].view[static_cast<std::size_t>(pose)]);
+              worker.problem.rows.push_back(set.selectors[s].view[static_cast<std::size_t>(pose)]);
           }
           for (std::size_t p = 0; p < pipelines.size(); ++p) {
             const auto metrics = metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
-            std::copy(
-                metrics.begin(), metrics.end(),
-                values.values.begin() + static_cast<std::ptrdiff_t>(problem_number * stride +
-                                                                    (p * selectors.size() + s) * kMetrics.size()));
+            std::copy(metrics.begin(), metrics.end(),
+                      values.values.begin() + static_cast<std::ptrdiff_t>(problem_number * stride +
+                                                                          (p * selectors + s) * kMetrics.size()));
           }
         }
       }
@@ -165,6 +159,25 @@ EvaluationTable evaluate(const ViewDataset& dataset, const semantics::Clustering
       values.first_category.push_back(values.categories.size());
     }
     progress.update(block + size);
+  }
+}
+
+}  // namespace
+
+EvaluationTable evaluate(const ViewDataset& dataset, const std::vector<EvaluationSet>& sets,
+                         const std::vector<EvaluationPipeline>& pipelines, const EvaluationOptions& options,
+                         Parallel& parallel, const Messages& messages, const std::string& task) {
+  const std::vector<Selector>& selectors = sets.front().selectors;
+  const std::size_t stride = pipelines.size() * selectors.size() * kMetrics.size();
+  ProblemValues values{.columns = static_cast<Index>(stride),
+                       .values = std::vector<double>(options.problems * stride),
+                       .categories = {},
+                       .first_category = {0}};
+  Progress progress(messages, task, static_cast<Index>(options.problems));
+  for (std::size_t s = 0; s < sets.size(); ++s) {
+    const auto first = static_cast<Index>(options.problems * s / sets.size()),
+               last = static_cast<Index>(options.problems * (s + 1) / sets.size());
+    solve(dataset, sets[s], pipelines, first, last, options, parallel, progress, values);
   }
   return table_of(values, pipelines, selectors, options, parallel);
 }

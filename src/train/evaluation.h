@@ -51,12 +51,18 @@ struct EvaluationOptions {
   std::vector<std::string> baselines{"top", "rand"};  ///< selectors to compare with, if the table has them
 };
 
+/// Random problems, and the selectors that choose their views.
+struct EvaluationSet {
+  semantics::ClusteringProblems problems;
+  std::vector<Selector> selectors;
+};
+
 /// Solves the same random problems (objects and poses of Stream::evaluation, random views of Stream::selector) with
-/// the views of every selector and with every pipeline. Requires: `problems` are of the dataset's views, with its
-/// indices of categories, objects and poses. The result has the same bits for any number of threads.
-EvaluationTable evaluate(const ViewDataset& dataset, const semantics::ClusteringProblems& problems,
-                         const std::vector<EvaluationPipeline>& pipelines, const std::vector<Selector>& selectors,
-                         const EvaluationOptions& options, Parallel& parallel, const Messages& messages,
-                         const std::string& task);
+/// the views of every selector and with every pipeline. About as many problems are of each set. Requires: all sets have
+/// the same names of selectors, and their problems are of the dataset's views, with its indices of categories, objects
+/// and poses. The result has the same bits for any number of threads.
+EvaluationTable evaluate(const ViewDataset& dataset, const std::vector<EvaluationSet>& sets,
+                         const std::vector<EvaluationPipeline>& pipelines, const EvaluationOptions& options,
+                         Parallel& parallel, const Messages& messages, const std::string& task);
 
 }  // namespace svnet::train

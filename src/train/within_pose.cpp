@@ -8,6 +8,9 @@
 namespace svnet::train {
 namespace {
 
+constexpr double WithinPose::* kFigures[] = {&WithinPose::spearman, &WithinPose::regret, &WithinPose::better_than_top,
+                                             &WithinPose::better_than_rand};
+
 /// Ranks from 0 on; equal values share the mean of their ranks.
 std::vector<double> ranks(std::span<const double> values) {
   std::vector<std::size_t> order(values.size());
@@ -58,7 +61,18 @@ WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predi
     sums.better_than_rand += chosen > std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size()) ? 1 : 0;
   }
   const auto count = static_cast<double>(sums.poses);
-  for (double* value : {&sums.spearman, &sums.regret, &sums.better_than_top, &sums.better_than_rand}) *value /= count;
+  for (const auto figure : kFigures) sums.*figure /= count;
+  return sums;
+}
+
+WithinPose mean_of(std::span<const WithinPose> groups) {
+  WithinPose sums;
+  for (const WithinPose& group : groups) {
+    if (group.poses == 0) continue;
+    sums.poses += group.poses;
+    for (const auto figure : kFigures) sums.*figure += group.*figure * static_cast<double>(group.poses);
+  }
+  for (const auto figure : kFigures) sums.*figure /= static_cast<double>(sums.poses);
   return sums;
 }
 

@@ -20,6 +20,9 @@ struct WithinPose {
 WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
                        const std::vector<bool>& categories);
 
+/// The means over all poses of several groups of poses.
+WithinPose mean_of(std::span<const WithinPose> groups);
+
 /// Spearman's rank correlation; 0 if one of the two is constant. Requires two values or more, as many in both.
 double rank_correlation(std::span<const double> a, std::span<const double> b);
 

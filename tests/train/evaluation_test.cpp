@@ -48,8 +48,8 @@ TEST_CASE("a selector of the informative views clusters perfectly, and tables do
   const std::vector<EvaluationPipeline> pipelines{{"line_ward", &distances, {.dimension = 1}}};
   const std::vector<Selector> selectors{
       {"top", top_views(scene.dataset)}, {"rand", {}}, {"opt_ind", best_views(scene.dataset, scores)}};
-  const auto table = evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 500}, two, {}, "");
-  const auto same = evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 500}, five, {}, "");
+  const auto table = evaluate(scene.dataset, {{problems, selectors}}, pipelines, {.problems = 500}, two, {}, "");
+  const auto same = evaluate(scene.dataset, {{problems, selectors}}, pipelines, {.problems = 500}, five, {}, "");
   for (std::size_t s = 0; s < 3; ++s)
     for (std::size_t m = 0; m < 3; ++m) {
       CHECK(table.cells[0][s][m].mean == same.cells[0][s][m].mean);
@@ -81,7 +81,7 @@ EvaluationTable table_with_svnet(const std::vector<std::string>& baselines = {"t
       {"line_single", &distances, {.method = Clustering::single, .dimension = 1}}};
   const std::vector<Selector> selectors{
       {"top", top_views(scene.dataset)}, {"rand", {}}, {"svnet", best_views(scene.dataset, scores)}};
-  return evaluate(scene.dataset, problems, pipelines, selectors, {.problems = 300, .baselines = baselines}, two, {},
+  return evaluate(scene.dataset, {{problems, selectors}}, pipelines, {.problems = 300, .baselines = baselines}, two, {},
                   "");
 }
 

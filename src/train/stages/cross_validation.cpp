@@ -1,7 +1,5 @@
 #include "train/stages/cross_validation.h"
 
-#include <algorithm>
-#include <map>
 #include <set>
 
 #include "base/error.h"
@@ -39,11 +37,45 @@ Run with_uniform_views(const Run& run) {
   return uniform;
 }
 
-/// Copies what a fold chose or predicted for its own categories.
-template <class T>
-void take_held_out(const Run& fold, const std::vector<T>& from, std::vector<T>& to, auto category_of) {
-  for (std::size_t i = 0; i < from.size(); ++i)
-    if (fold.held_out[static_cast<std::size_t>(category_of(i))]) to[i] = from[i];
+/// What a fold's model predicts, and the views that each selector chooses with it, for all poses.
+struct FoldChoices {
+  std::vector<double> predicted;
+  std::vector<Selector> selectors;
+};
+
+FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& true_scores,
+                       const std::vector<const SelectorKind*>& kinds) {
+  const Scores training_scores = scores_stage(fold, features);
+  const Model model = model_stage(fold, features, training_scores);
+  FoldChoices choices{.predicted = predicted_scores(fold, features, model), .selectors = {}};
+  const SelectorInputs inputs{.dataset = fold.dataset,
+                              .scores =
+                                  [&] {
+                                    return ViewScores{true_scores.individual, true_scores.global};
+                                  },
+                              .predicted = choices.predicted,
+                              .training_scores = training_scores,
+                              .frames = [&]() -> const std::vector<frame::TopFrame>& {
+                                return features.frames(fold.config.sv_net.depth);
+                              }};
+  for (const SelectorKind* kind : kinds) choices.selectors.push_back({kind->name, kind->view(inputs)});
+  return choices;
+}
+
+/// Puts the choices for the fold's own categories into `all`.
+void take_held_out(const Run& fold, const std::vector<Selector>& from, std::vector<Selector>& all) {
+  for (std::size_t s = 0; s < from.size(); ++s) {
+    if (s == all.size()) all.push_back(from[s]);
+    for (std::size_t pose = 0; pose < from[s].view.size(); ++pose)
+      if (fold.held_out[static_cast<std::size_t>(fold.dataset.poses[pose].category)])
+        all[s].view[pose] = from[s].view[pose];
+  }
+}
+
+/// The random problems of some categories.
+semantics::ClusteringProblems problems_of(const Run& run, std::vector<bool> categories) {
+  categories.flip();
+  return clustering_problems(run.dataset, categories, run.config.scores);
 }
 
 }  // namespace
@@ -78,7 +110,32 @@ std::vector<Fold> completed_folds(const ViewDataset& dataset, std::vector<Fold> 
   return given;
 }
 
-CrossValidation cross_validate(const Run& run, FeaturesStage& features, const std::vector<Fold>& folds) {
+std::vector<Fold> each_choice_of(const ViewDataset& dataset, Index size) {
+  const auto count = static_cast<Index>(dataset.categories.size());
+  check(size >= 2 && size + 2 <= count, "--each-choice-of: ", size, " of ", count,
+        " categories; it must be at least 2, and leave at least 2 to train on");
+  std::vector<Fold> folds;
+  std::vector<std::size_t> chosen(static_cast<std::size_t>(size));
+  const auto choose = [&](auto& self, std::size_t place, std::size_t from) -> void {
+    if (place == chosen.size()) {
+      check(folds.size() < kMostFolds, "--each-choice-of: there are more than ", kMostFolds, " choices of ", size,
+            " of ", count, " categories");
+      Fold fold;
+      for (const std::size_t category : chosen) fold.push_back(dataset.categories[category]);
+      folds.push_back(std::move(fold));
+      return;
+    }
+    for (std::size_t category = from; category < dataset.categories.size(); ++category) {
+      chosen[place] = category;
+      self(self, place + 1, category + 1);
+    }
+  };
+  choose(choose, 0, 0);
+  return folds;
+}
+
+CrossValidation cross_validate(const Run& run, FeaturesStage& features, const std::vector<Fold>& folds,
+                               FoldProblems problems) {
   check(run.config.dataset.held_out.empty(), "[folds] the configuration holds categories out of every fold");
   const Scores scores = scores_stage(with_uniform_views(run), features);
   const auto& target = run.config.sv_net.target == Target::individual ? scores.individual : scores.global;
@@ -86,44 +143,31 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   const auto kinds = selectors_of_table(named, Split::held_out);
 
   CrossValidation result;
-  std::vector<double> predicted(run.dataset.views.size(), 0);
-  std::map<std::string, std::vector<std::int32_t>> chosen;
+  std::vector<WithinPose> within_poses;
+  std::vector<Selector> of_all_folds;
+  std::vector<EvaluationSet> sets;
   for (std::size_t f = 0; f < folds.size(); ++f) {
     run.say(joined("fold ", f + 1, " of ", folds.size(), ": without ", joined_with(", ", folds[f])));
     const Run fold = run_of_fold(run, folds[f], f + 1);
-    const Scores training_scores = scores_stage(fold, features);
-    const Model model = model_stage(fold, features, training_scores);
-    const std::vector<double> of_fold = predicted_scores(fold, features, model);
-    take_held_out(fold, of_fold, predicted, [&](std::size_t view) { return run.dataset.views[view].category; });
-    const SelectorInputs inputs{
-        .dataset = run.dataset,
-        .scores =
-            [&] {
-              return ViewScores{scores.individual, scores.global};
-            },
-        .predicted = of_fold,
-        .training_scores = training_scores,
-        .frames = [&]() -> const std::vector<frame::TopFrame>& { return features.frames(run.config.sv_net.depth); }};
-    for (const SelectorKind* kind : kinds) {
-      const std::vector<std::int32_t> views = kind->view(inputs);
-      auto& all = chosen.try_emplace(kind->name, views.size()).first->second;
-      take_held_out(fold, views, all, [&](std::size_t pose) { return run.dataset.poses[pose].category; });
-    }
-    result.folds.push_back({folds[f], within_pose(run.dataset, predicted, target, fold.held_out)});
+    const FoldChoices choices = choices_of(fold, features, scores, kinds);
+    within_poses.push_back(within_pose(run.dataset, choices.predicted, target, fold.held_out));
+    result.folds.push_back({folds[f], within_poses.back()});
+    if (problems == FoldProblems::own_categories)
+      sets.push_back({problems_of(run, fold.held_out), choices.selectors});
+    else
+      take_held_out(fold, choices.selectors, of_all_folds);
   }
-  const std::vector<bool> all(run.dataset.categories.size(), true), none(run.dataset.categories.size(), false);
-  result.within_pose = within_pose(run.dataset, predicted, target, all);
+  if (problems == FoldProblems::all_categories)
+    sets.push_back({problems_of(run, std::vector<bool>(run.dataset.categories.size(), true)), of_all_folds});
+  result.within_pose = mean_of(within_poses);
 
-  std::vector<Selector> selectors;
-  for (const SelectorKind* kind : kinds) selectors.push_back({kind->name, chosen.at(kind->name)});
   PipelineDistances distances(run.config, features);
-  const std::vector<EvaluationPipeline> pipelines = distances.pipelines();
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(run.config.evaluation.problems),
                                   .seed = run.seed(),
                                   .nmi = run.config.evaluation.nmi,
                                   .baselines = {"top", "rand", "broadside", "phi_map"}};
-  result.table = evaluate(run.dataset, clustering_problems(run.dataset, none, run.config.scores), pipelines, selectors,
-                          options, Parallel::shared(), run.messages, "evaluation, all categories");
+  result.table = evaluate(run.dataset, sets, distances.pipelines(), options, Parallel::shared(), run.messages,
+                          "evaluation, held-out categories");
   return result;
 }
 

@@ -20,21 +20,34 @@ std::vector<Fold> drawn_folds(const ViewDataset& dataset, Index count, std::uint
 /// unknown category, or one that is named twice.
 std::vector<Fold> completed_folds(const ViewDataset& dataset, std::vector<Fold> given);
 
+/// Every choice of `size` of the dataset's categories, in their order. Throws Error unless each leaves at least 2
+/// categories to train on, there are at least 2 in each, and there are at most kMostFolds.
+std::vector<Fold> each_choice_of(const ViewDataset& dataset, Index size);
+inline constexpr std::size_t kMostFolds = 2000;
+
+/// Which problems the choices of views are judged by.
+enum class FoldProblems {
+  all_categories,  ///< of all categories, with the choices of all folds at once; each category is in one fold
+  own_categories,  ///< of each fold's own categories
+};
+
 struct FoldResult {
   Fold held_out;
   WithinPose within_pose;  ///< of the fold's categories
 };
 
 struct CrossValidation {
-  EvaluationTable table;   ///< over all categories, with the view of each pose that was chosen without its category
-  WithinPose within_pose;  ///< over all categories
+  EvaluationTable table;   ///< with the views that were chosen without their category
+  WithinPose within_pose;  ///< over the held-out poses of all folds
   std::vector<FoldResult> folds;
 };
 
 /// Cross-validation over categories: for each fold a model is trained as the run's configuration says, with the fold's
-/// categories held out of scores and training, and chooses views of these categories alone. Then all choices are
-/// evaluated together. Scores and models of a fold are kept in the folder fold-<number> of the run's folder, scores of
-/// all categories in the folder itself; those that fit are reused. Requires that no category of the run is held out.
-CrossValidation cross_validate(const Run& run, FeaturesStage& features, const std::vector<Fold>& folds);
+/// categories held out of scores and training, and chooses views of these categories alone. Then the choices are
+/// evaluated. Scores and models of a fold are kept in the folder fold-<number> of the run's folder, scores of all
+/// categories, which say what the best views are, in the folder itself; those that fit are reused. Requires that no
+/// category of the run is held out.
+CrossValidation cross_validate(const Run& run, FeaturesStage& features, const std::vector<Fold>& folds,
+                               FoldProblems problems = FoldProblems::all_categories);
 
 }  // namespace svnet::train
