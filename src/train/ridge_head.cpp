@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "models/pose_head.h"
 #include "train/dataset_rows.h"
+#include "train/view_targets.h"
 
 namespace svnet::train {
 namespace {
@@ -18,38 +19,14 @@ std::vector<double> inputs_of(const View& view, std::span<const frame::TopFrame>
       frame::input_options(depth));
 }
 
-/// The standard error of a score is NaN if it is of one problem: it is then at least as uncertain as any other.
-void set_unknown_to_largest(std::vector<double>& standard_errors) {
-  double largest = 0;
-  for (const double error : standard_errors)
-    if (std::isfinite(error)) largest = std::max(largest, error);
-  for (double& error : standard_errors)
-    if (!std::isfinite(error)) error = largest;
-}
-
-/// The variance of the scores within their poses.
-double variance_within_poses(const RidgeExamples& e) {
-  double squares = 0, freedom = 0;
-  for (std::size_t begin = 0, end; begin < e.y.size(); begin = end) {
-    double sum = 0, sum_of_squares = 0;
-    for (end = begin; end < e.y.size() && e.pose[end] == e.pose[begin]; ++end) {
-      sum += e.y[end];
-      sum_of_squares += e.y[end] * e.y[end];
-    }
-    const auto count = static_cast<double>(end - begin);
-    squares += sum_of_squares - sum * sum / count;
-    freedom += count - 1;
-  }
-  return freedom > 0 ? squares / freedom : 0;
-}
-
 }  // namespace
 
 RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopFrame> frames, const Scores& scores,
                          const std::vector<bool>& categories, Target target, frame::DepthChoice depth,
                          std::uint64_t seed) {
   check_rows(dataset, scores.paths, "scores");
-  const std::vector<double>& targets = target == Target::individual ? scores.individual : scores.global;
+  const std::vector<double>& targets = target_scores(scores, target);
+  std::vector<double> standard_errors;
   RidgeExamples examples{.inputs = frame::pose_input_count(frame::input_options(depth))};
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
@@ -57,13 +34,11 @@ RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopF
     const std::vector<double> inputs = inputs_of(view, frames, depth);
     examples.x.insert(examples.x.end(), inputs.begin(), inputs.end());
     examples.y.push_back(targets[i]);
-    examples.weight.push_back(scores.standard_error[i]);
+    standard_errors.push_back(scores.standard_error[i]);
     examples.pose.push_back(static_cast<std::int32_t>(view.pose));
     examples.category.push_back(static_cast<std::int32_t>(view.category));
   }
-  set_unknown_to_largest(examples.weight);
-  const double variance = variance_within_poses(examples);
-  for (double& weight : examples.weight) weight = variance > 0 ? variance / (variance + weight * weight) : 1;
+  examples.weight = score_weights(examples.y, standard_errors, examples.pose);
 
   RidgeOptions options{.seed = seed};
   for (const frame::InputGroup group : frame::pose_input_groups(frame::input_options(depth)))

@@ -17,9 +17,8 @@ struct RidgeHead {
   frame::DepthChoice depth = frame::DepthChoice::none;
 };
 
-/// Fits the scores of the views of `categories` that have one: each minus the mean of its pose, weighted by s² / (s² +
-/// e²), where s is the standard deviation of such differences and e the standard error of the score, the largest one if
-/// it is not known. `frames` are those of the dataset's poses. Throws Error as fit_ridge does.
+/// Fits the scores of the views of `categories` that have one: each minus the mean of its pose, weighted as
+/// score_weights (view_targets.h) says. `frames` are those of the dataset's poses. Throws Error as fit_ridge does.
 RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopFrame> frames, const Scores& scores,
                          const std::vector<bool>& categories, Target target, frame::DepthChoice depth,
                          std::uint64_t seed);

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "nn/graph/run.h"
 #include "nn/ops/losses.h"
+#include "nn/ops/multiply.h"
 #include "train/epoch_order.h"
 #include "train/training_step.h"
 
@@ -18,7 +19,7 @@ using io::Checkpoint;
 
 namespace {
 
-constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss\n";
+constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss,validation_spearman,validation_regret\n";
 
 /// The sum of all parameters, with their bits read as integers. Different sums mean different parameters.
 std::uint64_t sum_of_bits(const Parameters& parameters) {
@@ -34,16 +35,37 @@ std::uint64_t sum_of_bits(const Parameters& parameters) {
   return sum;
 }
 
-std::string metrics_line(Index epoch, Index step, double rate, double loss, std::optional<double> validation) {
+using Validation = Trainer::Validation;
+
+std::string metrics_line(Index epoch, Index step, double rate, double loss, const Validation& validation) {
   char text[160];
   std::snprintf(text, sizeof text, "%lld,%lld,%.9g,%.9g,", static_cast<long long>(epoch), static_cast<long long>(step),
                 rate, loss);
   std::string line = text;
-  if (validation) {
-    std::snprintf(text, sizeof text, "%.9g", *validation);
-    line += text;
-  }
-  return line + "\n";
+  if (validation.examples > 0)
+    std::snprintf(text, sizeof text, "%.9g,%.9g,%.9g", validation.loss, validation.within_pose.spearman,
+                  validation.within_pose.regret);
+  return line + (validation.examples > 0 ? text : ",,") + "\n";
+}
+
+std::string validation_text(const Validation& validation) {
+  if (validation.examples == 0) return "";
+  char text[160];
+  std::snprintf(text, sizeof text, ", validation loss %.6g, within poses Spearman %.3f, regret %.3f", validation.loss,
+                validation.within_pose.spearman, validation.within_pose.regret);
+  return text;
+}
+
+/// What the epochs are compared by: lower is better.
+double judged(double loss, const Validation& validation) {
+  if (validation.examples == 0) return loss;
+  return validation.within_pose.poses > 0 ? 1 - validation.within_pose.spearman : validation.loss;
+}
+
+/// The mean squared error with the weights of the targets.
+Tensor weighted_loss(const Tensor& score, const TrainingSet::Batch& batch, bool weighted) {
+  if (!weighted) return ops::mean_squared_error(score, batch.targets);
+  return ops::mean_squared_error(ops::multiply(score, batch.weights), ops::multiply(batch.targets, batch.weights));
 }
 
 }  // namespace
@@ -71,7 +93,7 @@ Index Trainer::steps_per_epoch() const { return batch_count(options_.batch_size,
 
 double Trainer::step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const {
   const auto batch = training_.batch(examples);
-  const auto loss = [&](const Tensor& score) { return ops::mean_squared_error(score, batch.targets); };
+  const auto loss = [&](const Tensor& score) { return weighted_loss(score, batch, training_.weighted()); };
   return training_step(graph_, parameters, optimizer, {batch.top_views, batch.angles}, loss,
                        {.task = "training",
                         .learning_rate = options_.schedule.at(optimizer.steps),
@@ -82,8 +104,11 @@ double Trainer::step(std::span<const std::int32_t> examples, Parameters& paramet
       .loss;
 }
 
-double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) const {
+Trainer::Validation Trainer::validate(const Parameters& parameters) const {
+  if (validation_ == nullptr) return {};
+  const TrainingSet& set = *validation_;
   double sum = 0;
+  std::vector<double> predicted;
   std::vector<std::int32_t> examples(static_cast<std::size_t>(set.size()));
   std::iota(examples.begin(), examples.end(), 0);
   // Large batches of features, few images: a backbone's activations are up to a hundred times its input.
@@ -93,9 +118,11 @@ double Trainer::mean_loss(const TrainingSet& set, const Parameters& parameters) 
                                                   static_cast<std::size_t>(std::min(most, set.size() - begin)));
     const auto batch = set.batch(part);
     const Tensor score = run_inference(graph_, parameters, {batch.top_views, batch.angles}, {graph_.output()})[0];
-    sum += ops::mean_squared_error(score, batch.targets).item() * static_cast<double>(part.size());
+    sum += weighted_loss(score, batch, set.weighted()).item() * static_cast<double>(part.size());
+    const auto values = score.values<float>();
+    predicted.insert(predicted.end(), values.begin(), values.end());
   }
-  return sum / static_cast<double>(set.size());
+  return {set.size(), sum / static_cast<double>(set.size()), set.within_pose(predicted)};
 }
 
 Checkpoint Trainer::initial_state(Parameters parameters) const {
@@ -114,7 +141,10 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
   const Index per_epoch = steps_per_epoch();
   Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch);
   Index done = 0;
-  for (; state.epoch < options_.epochs;) {
+  const auto patient = [&] {
+    return options_.patience == 0 || state.epoch - state.best_epoch < options_.patience;
+  };
+  while (state.epoch < options_.epochs && patient()) {
     const auto order = epoch_order(training_.size(), options_.seed, state.epoch);
     const double rate = options_.schedule.at(optimizer->steps);
     double sum = 0;
@@ -126,8 +156,7 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
       if (++done % per_epoch != 0) progress.update(done);
     }
     const double loss = sum / static_cast<double>(training_.size());
-    std::optional<double> validation;
-    if (validation_ != nullptr) validation = mean_loss(*validation_, state.parameters);
+    const Validation validation = validate(state.parameters);
     ++state.epoch;
     if (communicator_.size() > 1) {
       const std::uint64_t own = sum_of_bits(state.parameters);
@@ -137,16 +166,18 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
     }
     state.steps = optimizer->steps;
     state.metrics += metrics_line(state.epoch, state.steps, rate, loss, validation);
-    const double judged = validation.value_or(loss);
-    const bool best = state.epoch == 1 || judged < state.best_loss;
-    if (best) state.best_loss = judged;
+    const bool best = state.epoch == 1 || judged(loss, validation) < state.best_loss;
+    if (best) {
+      state.best_loss = judged(loss, validation);
+      state.best_epoch = state.epoch;
+    }
     if (messages.line)
-      messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss,
-                           validation ? joined(", validation loss ", *validation) : std::string(),
-                           best ? ", best so far" : ""));
+      messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss, validation_text(validation), best ? ", best so far" : ""));
     after_epoch(state, best);
     progress.update(done);
   }
+  if (state.epoch < options_.epochs && messages.line)
+    messages.line(joined("training stops: no better epoch than ", state.best_epoch, " in ", options_.patience, " more"));
 }
 
 }  // namespace svnet::train

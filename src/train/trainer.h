@@ -14,6 +14,7 @@ namespace svnet::train {
 
 struct TrainerOptions {
   Index epochs = 10;
+  Index patience = 0;  ///< stop after this many epochs without a better one; 0: never
   Index batch_size = 32;
   OptimizerOptions optimizer{};
   Schedule schedule;  // in steps
@@ -22,11 +23,18 @@ struct TrainerOptions {
   std::string input_fingerprint;  // copied into checkpoints
 };
 
-/// Trains a graph with the inputs (top view, angles) and one score as output, by mean squared error. All processes of a
+/// Trains a graph with the inputs (top view, angles) and one score as output, by mean squared error with the weights of the targets. All processes of a
 /// communicator do the same steps with all parameters, and share the products of dense layers. Sums over a batch are
 /// taken in the order of its examples, so the bits do not depend on the number of processes.
 class Trainer {
  public:
+  /// On the validation set.
+  struct Validation {
+    Index examples = 0;  ///< 0: there is no validation set
+    double loss = 0;
+    WithinPose within_pose;
+  };
+
   /// `validation` may be nullptr. Keeps references.
   Trainer(const Graph& graph, const TrainingSet& training, const TrainingSet* validation, const TrainerOptions& options,
           Communicator& communicator = SingleProcess::shared());
@@ -36,7 +44,8 @@ class Trainer {
 
   /// Continues from a checkpoint, with the bits of a training that was not interrupted; changes its parameters in
   /// place. After each epoch calls `after_epoch` with the state, and with whether the epoch is the best so far: by
-  /// validation loss if there is a validation set, otherwise by training loss. Throws Error if the loss or a gradient
+  /// Spearman's rank correlation within the poses of the validation set if there is one, otherwise by training loss.
+  /// Throws Error if the loss or a gradient
   /// is not finite, or if the processes of the communicator have different parameters.
   void train(io::Checkpoint state, const std::function<void(const io::Checkpoint&, bool best)>& after_epoch,
              const Messages& messages);
@@ -48,7 +57,7 @@ class Trainer {
 
  private:
   double step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const;
-  double mean_loss(const TrainingSet& set, const Parameters& parameters) const;
+  Validation validate(const Parameters& parameters) const;
   std::unique_ptr<Optimizer> new_optimizer(const Parameters& parameters) const;
 
   const Graph& graph_;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 
 namespace svnet::train {
@@ -38,31 +37,36 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
   return xx > 0 && yy > 0 ? xy / std::sqrt(xx * yy) : 0;
 }
 
+WithinPose within_one_pose(std::span<const double> predicted, std::span<const double> scores,
+                           std::optional<std::size_t> top) {
+  if (scores.size() < 3) return mean_of({});
+  const double chosen = scores[static_cast<std::size_t>(std::max_element(predicted.begin(), predicted.end()) -
+                                                        predicted.begin())];
+  const double mean = std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size());
+  return {.poses = 1,
+          .spearman = rank_correlation(predicted, scores),
+          .regret = *std::max_element(scores.begin(), scores.end()) - chosen,
+          .better_than_top = top && chosen > scores[*top] ? 1.0 : 0.0,
+          .better_than_rand = chosen > mean ? 1.0 : 0.0};
+}
+
 WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
                        const std::vector<bool>& categories) {
-  WithinPose sums;
+  std::vector<WithinPose> poses;
   for (const auto& pose : dataset.poses) {
     if (!categories[static_cast<std::size_t>(pose.category)]) continue;
     std::vector<double> x, y;
-    double top = std::numeric_limits<double>::quiet_NaN();
+    std::optional<std::size_t> top;
     for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
       const auto view = static_cast<std::size_t>(v);
       if (!std::isfinite(scores[view])) continue;
+      if (v == pose.top_view) top = y.size();
       x.push_back(predicted[view]);
       y.push_back(scores[view]);
-      if (v == pose.top_view) top = scores[view];
     }
-    if (y.size() < 3) continue;
-    ++sums.poses;
-    const double chosen = y[static_cast<std::size_t>(std::max_element(x.begin(), x.end()) - x.begin())];
-    sums.spearman += rank_correlation(x, y);
-    sums.regret += *std::max_element(y.begin(), y.end()) - chosen;
-    sums.better_than_top += chosen > top ? 1 : 0;
-    sums.better_than_rand += chosen > std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size()) ? 1 : 0;
+    poses.push_back(within_one_pose(x, y, top));
   }
-  const auto count = static_cast<double>(sums.poses);
-  for (const auto figure : kFigures) sums.*figure /= count;
-  return sums;
+  return mean_of(poses);
 }
 
 WithinPose mean_of(std::span<const WithinPose> groups) {

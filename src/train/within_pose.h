@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct WithinPose {
 /// first with the highest prediction.
 WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
                        const std::vector<bool>& categories);
+
+/// The same of one pose, with the predictions and scores of its views. `top` is the top view among them, nullopt: it has
+/// no score, and no view is better.
+WithinPose within_one_pose(std::span<const double> predicted, std::span<const double> scores,
+                           std::optional<std::size_t> top);
 
 /// The means over all poses of several groups of poses.
 WithinPose mean_of(std::span<const WithinPose> groups);

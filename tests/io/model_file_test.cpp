@@ -259,6 +259,7 @@ TEST_CASE("a checkpoint is read as it was written") {
                          .epoch = 3,
                          .steps = 17,
                          .best_loss = 0.125,
+                         .best_epoch = 4,
                          .metrics = "a,b\n1,2\n",
                          .parameters = initial_parameters(graph, 1),
                          .optimizer = {Tensor::full({2, 2}, 0.5)}};
@@ -269,6 +270,7 @@ TEST_CASE("a checkpoint is read as it was written") {
   CHECK(back.epoch == 3);
   CHECK(back.steps == 17);
   CHECK(back.best_loss == 0.125);
+  CHECK(back.best_epoch == 4);
   CHECK(back.metrics == saved.metrics);
   CHECK(equal(back.optimizer[0], saved.optimizer[0]));
   const Parameters alone = read_checkpoint_parameters(path, graph);

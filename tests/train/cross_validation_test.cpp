@@ -107,6 +107,40 @@ TEST_CASE("a fold of an unknown category, or of one twice, is refused") {
   CHECK_THROWS_WITH(completed_folds(dataset, {{"car", "car"}}), "--fold: the category 'car' is named twice");
 }
 
+TEST_CASE("every choice of some categories is a fold") {
+  const ViewDataset dataset = named({"a", "b", "c", "d", "e"});
+  const std::vector<Fold> folds = each_choice_of(dataset, 2);
+  CHECK(folds.size() == 10);
+  CHECK(folds.front() == Fold{"a", "b"});
+  CHECK(folds[4] == Fold{"b", "c"});
+  CHECK(folds.back() == Fold{"d", "e"});
+  CHECK(std::set<Fold>(folds.begin(), folds.end()).size() == 10);
+  CHECK(each_choice_of(dataset, 3).size() == 10);
+  for (const Index size : {Index{1}, Index{4}})
+    CHECK_THROWS_WITH(each_choice_of(dataset, size),
+                      Catch::Contains("it must be at least 2, and leave at least 2 to train on"));
+  std::vector<std::string> many;
+  for (int i = 0; i < 30; ++i) many.push_back("category " + std::to_string(i));
+  CHECK_THROWS_WITH(each_choice_of(named(many), 5),
+                    "--each-choice-of: there are more than 2000 choices of 5 of 30 categories");
+}
+
+TEST_CASE("a fold can be judged by problems of its own categories") {
+  const Bars bars;
+  const Run run = bars.run(bars.config, "run");
+  FeaturesStage features(run);
+  const auto folds = each_choice_of(run.dataset, 3);
+  const CrossValidation result = cross_validate(run, features, folds, FoldProblems::own_categories);
+  REQUIRE(result.folds.size() == 20);
+  CHECK(result.within_pose.poses == 20 * 6);
+  CHECK(result.table.problems == 200);
+  // Problems of few categories are easier than those of all six.
+  CHECK(fm(result.table, "rand") > fm(cross_validate(run, features, kFolds).table, "rand"));
+  CHECK(fm(result.table, "svnet") > fm(result.table, "rand"));
+  const Difference& ahead = result.table.differences.at("rand")[0][4][0];
+  CHECK(std::isfinite(ahead.interval.low));
+}
+
 TEST_CASE("every category is chosen by a model that never saw it, and the choices beat chance") {
   const Bars bars;
   const Run run = bars.run(bars.config, "run");

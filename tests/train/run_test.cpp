@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <fstream>
+#include <sstream>
 
 #include "base/parallel.h"
 #include "io/files/file_hash.h"
@@ -137,6 +139,53 @@ TEST_CASE("an interrupted training resumes to the same bits") {
   Log log;
   CHECK(results(config, temporary.path() / "run", log.messages) == expected);
   CHECK(log.has("training: goes on after epoch 2"));
+}
+
+TEST_CASE("with validation categories the epoch that ranks their views best is kept, and training stops in time") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  config.training.validation_categories = 1;
+  config.training.epochs = 40;
+  config.training.patience = 2;
+  config.training.target = GENERATE(TargetScale::scaled, TargetScale::centred);
+  Log log;
+  const auto folder = temporary.path() / "run";
+  const auto expected = results(config, folder, log.messages);
+  CHECK(log.has("within poses Spearman"));
+  CHECK(log.has("training stops: no better epoch than"));
+
+  // metrics.csv: a line per epoch, the best one followed by two others.
+  std::ifstream csv(folder / "metrics.csv");
+  std::string line;
+  std::getline(csv, line);
+  CHECK(line == "epoch,step,learning_rate,loss,validation_loss,validation_spearman,validation_regret");
+  std::vector<double> spearman;
+  while (std::getline(csv, line)) {
+    std::vector<std::string> cells;
+    std::istringstream stream(line);
+    for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+    REQUIRE(cells.size() == 7);
+    spearman.push_back(std::stod(cells[5]));
+    CHECK(std::stod(cells[6]) >= 0);
+  }
+  REQUIRE(spearman.size() >= 3);
+  CHECK(spearman.size() < 40);
+  const auto best = std::max_element(spearman.begin(), spearman.end());
+  CHECK(spearman.end() - best == 3);
+
+  // A training that stopped is finished: nothing is trained again, and an interrupted one has the same bits.
+  Log again;
+  CHECK(results(config, folder, again.messages) == expected);
+  CHECK_FALSE(again.has("epoch"));
+  struct Stop {};
+  const Messages stopping{.line =
+                              [](std::string_view said) {
+                                if (said.starts_with("epoch 2/")) throw Stop{};
+                              },
+                          .progress = {}};
+  CHECK_THROWS_AS(results(config, temporary.path() / "resumed", stopping), Stop);
+  CHECK(results(config, temporary.path() / "resumed", {}) == expected);
 }
 
 TEST_CASE("a backbone is trained with its head, the same for any number of threads, and interrupted or not") {

@@ -13,6 +13,7 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
                         {"epoch", checkpoint.epoch},
                         {"steps", checkpoint.steps},
                         {"best_loss", checkpoint.best_loss},
+                        {"best_epoch", checkpoint.best_epoch},
                         {"metrics", checkpoint.metrics}};
   file.add("", checkpoint.parameters);
   for (std::size_t i = 0; i < checkpoint.optimizer.size(); ++i)
@@ -26,6 +27,7 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph
                         .epoch = file.get<Index>("epoch"),
                         .steps = file.get<Index>("steps"),
                         .best_loss = file.get<double>("best_loss"),
+                        .best_epoch = file.get<Index>("best_epoch"),
                         .metrics = file.get<std::string>("metrics"),
                         .parameters = file.parameters("", graph),
                         .optimizer = {}};

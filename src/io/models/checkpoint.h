@@ -12,7 +12,8 @@ struct Checkpoint {
   std::string input_fingerprint;  // of everything that training depends on
   Index epoch = 0;                // number of finished epochs
   Index steps = 0;                // number of optimizer steps so far
-  double best_loss = 0;           // the lowest loss of an epoch so far
+  double best_loss = 0;           // of the best epoch so far: 1 - Spearman on validation categories, or training loss
+  Index best_epoch = 0;           // that epoch, from 1 on
   std::string metrics;            // the contents of metrics.csv so far
   Parameters parameters;          // of the trained graph (models/trained_graph.h)
   std::vector<Tensor> optimizer;  // the optimizer's state (nn/optim/optimizer.h)

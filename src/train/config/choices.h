@@ -17,6 +17,12 @@ constexpr auto enum_table(Target) {
   return std::to_array<EnumName<Target>>({{Target::individual, "individual"}, {Target::global, "global"}});
 }
 
+/// How the score becomes what SV-net learns (view_targets.h).
+enum class TargetScale { scaled, centred };
+constexpr auto enum_table(TargetScale) {
+  return std::to_array<EnumName<TargetScale>>({{TargetScale::scaled, "scaled"}, {TargetScale::centred, "centred"}});
+}
+
 /// In which symmetries (view/symmetry.h) SV-net sees the top image when it scores a view: as taken, or all of
 /// them, averaged.
 enum class Orientations { as_taken, all };

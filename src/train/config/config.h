@@ -59,7 +59,9 @@ struct Config {
     Schedule::Kind schedule = Schedule::Kind::constant;
     Index step_epochs = 5;
     double step_factor = 0.1;
+    TargetScale target = TargetScale::scaled;
     Index validation_categories = 0;
+    Index patience = 0;
     FineTune fine_tune = FineTune::none;
     TopViewAugmentation augmentation = TopViewAugmentation::none;
   };

@@ -173,8 +173,14 @@ std::vector<BoundKey> bound_keys(Config& c) {
             "Epochs between two steps; schedule step only."),
       number(Stage::model, "training.step_factor", c.training.step_factor, {.min = 0, .max = 1, .min_open = true},
              "The learning rate is multiplied by this at each step; schedule step only."),
+      later(choice(Stage::model, "training.target", c.training.target,
+                   "scaled: the score, scaled to [0, 1] among the views of its pose. centred: the score minus the mean "
+                   "of its pose, weighted by what is known of it; frame camera only, others are always centred.")),
       whole(Stage::model, "training.validation_categories", c.training.validation_categories, kNotNegative,
-            "Training categories, drawn at random, that choose the best checkpoint. 0: none."),
+            "Training categories, drawn at random, that choose the best checkpoint: the one that ranks the views of "
+            "their poses best. 0: none."),
+      later(whole(Stage::model, "training.patience", c.training.patience, kNotNegative,
+                  "Stop after N epochs without a better checkpoint. 0: never.")),
       choice(Stage::model, "training.fine_tune", c.training.fine_tune,
              "Part of sv_net.backbone that is trained together with the head."),
       choice(Stage::model, "training.augmentation", c.training.augmentation,

@@ -3,6 +3,7 @@
 #include "io/images/image_file.h"
 #include "train/stages/held_out_scores.h"
 #include "train/view_sheet.h"
+#include "train/view_targets.h"
 
 namespace svnet::train {
 
@@ -10,7 +11,7 @@ std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const E
                                                          std::uint64_t problems) {
   if (!run.has_held_out_problems()) return {};
   const semantics::SemanticScores scores = held_out_scores(run, inputs.features, problems);
-  const auto& best = run.config.sv_net.target == Target::individual ? scores.individual : scores.global;
+  const auto& best = target_scores(scores, run.config.sv_net.target);
   const Selector selectors[] = {{"top", top_views(run.dataset)},
                                 {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};

@@ -13,6 +13,7 @@
 #include "train/stages/pipeline_distances.h"
 #include "train/stages/predictions.h"
 #include "train/stages/scores.h"
+#include "train/view_targets.h"
 
 namespace svnet::train {
 namespace {
@@ -138,7 +139,7 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
                                FoldProblems problems) {
   check(run.config.dataset.held_out.empty(), "[folds] the configuration holds categories out of every fold");
   const Scores scores = scores_stage(with_uniform_views(run), features);
-  const auto& target = run.config.sv_net.target == Target::individual ? scores.individual : scores.global;
+  const auto& target = target_scores(scores, run.config.sv_net.target);
   const auto& named = run.config.evaluation.selectors.empty() ? kSelectors : run.config.evaluation.selectors;
   const auto kinds = selectors_of_table(named, Split::held_out);
 

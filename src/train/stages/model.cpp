@@ -150,14 +150,16 @@ Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, 
   const std::vector<bool> validating = validation_categories(run.held_out, config);
   std::vector<bool> training = run.training_categories();
   for (std::size_t c = 0; c < training.size(); ++c) training[c] = training[c] && !validating[c];
-  const Target target = config.sv_net.target;
+  const auto targets = [&](const std::vector<bool>& categories) {
+    return view_targets(run.dataset, scores, categories, config.sv_net.target, config.training.target);
+  };
   const NodeId output = backbone.graph().find(backbone.output_name());
   const NodeId from = trained_from(config.training.fine_tune, backbone.kind(), backbone.graph(), output);
   const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, from);
-  const TrainingSet training_set(run.dataset, *inputs, scores, training, target, model.angles);
+  const TrainingSet training_set(run.dataset, *inputs, targets(training), model.angles);
   std::optional<TrainingSet> validation_set;
   if (config.training.validation_categories > 0)
-    validation_set.emplace(run.dataset, *inputs, scores, validating, target, model.angles);
+    validation_set.emplace(run.dataset, *inputs, targets(validating), model.angles);
   const Graph trained = models::trained_graph(backbone.graph(), from, output, model.head);
   run.say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
                  validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));

@@ -38,6 +38,7 @@ int trained_orientations(const Config& config) {
 TrainerOptions trainer_options(const Config& config, const std::string& fingerprint) {
   const auto& t = config.training;
   return {.epochs = t.epochs,
+          .patience = t.patience,
           .batch_size = t.batch_size,
           .optimizer = {.kind = t.optimizer, .momentum = t.momentum},
           .schedule = {},
