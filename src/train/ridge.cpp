@@ -4,15 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <set>
 
 #include "base/error.h"
 #include "base/random.h"
 
 namespace svnet::train {
 namespace {
-
-constexpr std::size_t kFolds = 5;
 
 /// The sums that a least-squares fit needs: of x xᵀ, of x y and of y².
 struct Moments {
@@ -79,17 +77,6 @@ Eigen::VectorXd solved(const Moments& m, const std::vector<bool>& small_penalty,
   return a.ldlt().solve(m.xy);
 }
 
-/// The fold of each category, in the order of the map: about equally many in each, drawn from the seed.
-std::vector<std::size_t> folds_of(std::size_t categories, std::uint64_t seed) {
-  std::vector<std::size_t> order(categories), fold(categories);
-  for (std::size_t i = 0; i < categories; ++i) order[i] = i;
-  RandomStream random(seed, Stream::cross_validation);
-  for (std::size_t i = categories; i > 1; --i)
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
-  for (std::size_t i = 0; i < categories; ++i) fold[order[i]] = i % std::min(kFolds, categories);
-  return fold;
-}
-
 void check_examples(const RidgeExamples& e) {
   const std::size_t count = e.y.size();
   check(e.x.size() == count * static_cast<std::size_t>(e.inputs) && e.weight.size() == count &&
@@ -102,18 +89,28 @@ void check_examples(const RidgeExamples& e) {
 
 }  // namespace
 
+std::map<std::int32_t, std::size_t> folds_of_categories(const RidgeExamples& examples, std::uint64_t seed) {
+  const std::set<std::int32_t> distinct(examples.category.begin(), examples.category.end());
+  std::vector<std::int32_t> order(distinct.begin(), distinct.end());
+  RandomStream random(seed, Stream::cross_validation);
+  for (std::size_t i = order.size(); i > 1; --i)
+    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  std::map<std::int32_t, std::size_t> folds;
+  for (std::size_t i = 0; i < order.size(); ++i) folds[order[i]] = i % std::min(kRidgeFolds, order.size());
+  return folds;
+}
+
 RidgeFit fit_ridge(const RidgeExamples& examples, const RidgeOptions& options) {
   check_examples(examples);
   const auto by_category = moments_by_category(examples);
   check(by_category.size() >= 2, "[ridge] needs at least 2 categories with scores, there are ", by_category.size());
-  const std::vector<std::size_t> fold = folds_of(by_category.size(), options.seed);
+  const auto fold = folds_of_categories(examples, options.seed);
 
   Moments all(examples.inputs);
-  std::vector<Moments> left_out(std::min(kFolds, by_category.size()), Moments(examples.inputs));
-  std::size_t at = 0;
+  std::vector<Moments> left_out(std::min(kRidgeFolds, by_category.size()), Moments(examples.inputs));
   for (const auto& [category, moments] : by_category) {
     all.add(moments);
-    left_out[fold[at++]].add(moments);
+    left_out[fold.at(category)].add(moments);
   }
 
   RidgeFit fit;

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "base/index.h"
@@ -29,6 +30,13 @@ struct RidgeFit {
   double penalty = 0;           ///< of the inputs without the small one, relative to the mean of their squares
   double error = 0;             ///< mean squared error of the left-out categories, relative to predicting 0
 };
+
+/// The number of folds that choose the penalty, if there are as many categories.
+inline constexpr std::size_t kRidgeFolds = 5;
+
+/// The fold, from 0 on, of each category that occurs in the examples: about equally many in each of kRidgeFolds, or of
+/// as many as there are categories.
+std::map<std::int32_t, std::size_t> folds_of_categories(const RidgeExamples& examples, std::uint64_t seed);
 
 /// Penalties are relative to the mean of the inputs' squares, each kind of input to its own.
 inline constexpr double kSmallPenalty = 0.01;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "models/pose_head.h"
 #include "train/dataset_rows.h"
 #include "train/view_targets.h"
 
@@ -23,7 +22,7 @@ std::vector<double> inputs_of(const View& view, std::span<const frame::TopFrame>
 
 RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopFrame> frames, const Scores& scores,
                          const std::vector<bool>& categories, Target target, frame::DepthChoice depth,
-                         std::uint64_t seed) {
+                         std::uint64_t seed, HeadChoice head) {
   check_rows(dataset, scores.paths, "scores");
   const std::vector<double>& targets = target_scores(scores, target);
   std::vector<double> standard_errors;
@@ -43,32 +42,24 @@ RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopF
   RidgeOptions options{.seed = seed};
   for (const frame::InputGroup group : frame::pose_input_groups(frame::input_options(depth)))
     options.small_penalty.push_back(group == frame::InputGroup::phi || group == frame::InputGroup::axis);
-  return {fit_ridge(examples, options), depth};
+  return {fit_head(examples, options, head), depth};
 }
 
 std::vector<double> predictions(const RidgeHead& head, const ViewDataset& dataset,
                                 std::span<const frame::TopFrame> frames) {
-  std::vector<double> predicted;
+  RidgeExamples views{.inputs = frame::pose_input_count(frame::input_options(head.depth))};
   for (const View& view : dataset.views) {
     const std::vector<double> inputs = inputs_of(view, frames, head.depth);
-    double score = head.fit.bias;
-    for (std::size_t i = 0; i < inputs.size(); ++i) score += head.fit.weights[i] * inputs[i];
-    predicted.push_back(score);
+    views.x.insert(views.x.end(), inputs.begin(), inputs.end());
   }
-  return predicted;
+  return predictions(head.fit, views);
 }
 
 Model model_of(const RidgeHead& head) {
   Model model;
   model.frame = frame::FrameChoice::axis;
   model.depth = head.depth;
-  model.head = models::linear_head(static_cast<Index>(head.fit.weights.size()));
-  Tensor kernel = Tensor::empty({static_cast<Index>(head.fit.weights.size()), 1}), bias = Tensor::empty({1});
-  const auto logit = [](double score) { return static_cast<float>(models::kLogitPerScore * score); };
-  for (std::size_t i = 0; i < head.fit.weights.size(); ++i) kernel.data<float>()[i] = logit(head.fit.weights[i]);
-  bias.data<float>()[0] = logit(head.fit.bias);
-  model.head_parameters.set("ridge/kernel", kernel);
-  model.head_parameters.set("ridge/bias", bias);
+  set_head(model, head.fit);
   return model;
 }
 

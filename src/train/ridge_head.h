@@ -7,13 +7,13 @@
 #include "data/view_dataset.h"
 #include "frame/top_frame.h"
 #include "train/config/choices.h"
-#include "train/ridge.h"
+#include "train/head_fit.h"
 
 namespace svnet::train {
 
 /// A linear model of scores in the frame `axis`.
 struct RidgeHead {
-  RidgeFit fit;
+  HeadFit fit;
   frame::DepthChoice depth = frame::DepthChoice::none;
 };
 
@@ -21,7 +21,7 @@ struct RidgeHead {
 /// score_weights (view_targets.h) says. `frames` are those of the dataset's poses. Throws Error as fit_ridge does.
 RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopFrame> frames, const Scores& scores,
                          const std::vector<bool>& categories, Target target, frame::DepthChoice depth,
-                         std::uint64_t seed);
+                         std::uint64_t seed, HeadChoice head = HeadChoice::ridge);
 
 /// The predicted centred score of every view of the dataset.
 std::vector<double> predictions(const RidgeHead& head, const ViewDataset& dataset,

@@ -113,7 +113,7 @@ TEST_CASE("a ridge head finds a rule in the object's frame that holds for other 
     if (others()[static_cast<std::size_t>(bars().dataset.views[v].category)]) scores.individual[v] = std::nan("");
   const RidgeHead head = fitted(scores, depth);
   CHECK(head.depth == depth);
-  CHECK(head.fit.error < 0.15);
+  CHECK(head.fit.ridge.error < 0.15);
   const auto predicted = predictions(head, bars().dataset, bars().frames(depth));
   const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
   CHECK(within.poses == 2 * kPosesOfCategory);
@@ -125,10 +125,10 @@ TEST_CASE("a ridge head finds a rule in the object's frame that holds for other 
 
 TEST_CASE("a ridge head learns the target it is told to") {
   const RidgeHead individual = fitted(bars().scores), global = fitted(bars().scores, DepthChoice::none, Target::global);
-  CHECK(individual.fit.weights != global.fit.weights);
+  CHECK(individual.fit.ridge.weights != global.fit.ridge.weights);
   Scores swapped = bars().scores;
   std::swap(swapped.individual, swapped.global);
-  CHECK(fitted(swapped).fit.weights == global.fit.weights);
+  CHECK(fitted(swapped).fit.ridge.weights == global.fit.ridge.weights);
 }
 
 TEST_CASE("the model of a ridge head predicts what the head does, by its sigmoid") {
@@ -183,11 +183,11 @@ TEST_CASE("a score without a standard error counts no more than the least certai
     scores.individual[v] += 0.3;
     scores.standard_error[v] = 0.5;
   }
-  const auto with_largest = fitted(scores).fit.weights;
+  const auto with_largest = fitted(scores).fit.ridge.weights;
   bool one_is_left = false;
   for (double& error : scores.standard_error)
     if (error == 0.5 && std::exchange(one_is_left, true)) error = std::nan("");
-  CHECK(fitted(scores).fit.weights == with_largest);
+  CHECK(fitted(scores).fit.ridge.weights == with_largest);
   scores.standard_error.assign(scores.standard_error.size(), std::nan(""));
   CHECK_NOTHROW(fitted(scores));
 }
@@ -200,4 +200,50 @@ TEST_CASE("a ridge head needs scores of this dataset, and two categories of them
       fit_ridge_head(bars().dataset, bars().frames(), scores, one, Target::individual, DepthChoice::none, 3), Error);
   scores.paths[5] = "another";
   CHECK_THROWS_WITH(fitted(scores), Catch::StartsWith("scores"));
+}
+
+TEST_CASE("networks learn the rule too, alone and averaged with the ridge regression, and the model scores as they do") {
+  const HeadChoice choice = GENERATE(HeadChoice::network, HeadChoice::both, HeadChoice::best);
+  const RidgeHead head = fit_ridge_head(bars().dataset, bars().frames(), bars().scores, training(), Target::individual,
+                                        DepthChoice::none, 3, choice);
+  const auto predicted = predictions(head, bars().dataset, bars().frames());
+  const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
+  CHECK(within.spearman > 0.8);
+  CHECK(head.fit.tried.size() == (choice == HeadChoice::best ? 3 : 0));
+  if (choice == HeadChoice::network) CHECK(head.fit.ridge_share == 0);
+  if (choice == HeadChoice::both) CHECK(head.fit.ridge_share == 0.5);
+  if (choice == HeadChoice::best) {
+    CHECK_THAT(tried_text(head.fit.tried), Catch::Contains("ridge 0.9") && Catch::Contains(", network "));
+    for (const TriedHead& tried : head.fit.tried) CHECK(tried.within_pose.spearman > 0.8);
+    return;
+  }
+  CHECK(head.fit.networks.size() == kNetworks);
+
+  const predict::ScoreHead score_head(model_of(head));
+  const Index pose = 2;
+  const frame::TopFrameValues values = frame::to_values(bars().frames()[static_cast<std::size_t>(pose)]);
+  Tensor top = Tensor::empty({1, score_head.feature_count()});
+  std::copy(values.begin(), values.end(), top.data<float>());
+  std::vector<view::CameraPose> poses;
+  for (const View& view : bars().dataset.views_of(pose))
+    poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+  const std::vector<float> scores = score_head.scores(top, poses);
+  const auto first = static_cast<std::size_t>(bars().dataset.poses[static_cast<std::size_t>(pose)].first_view);
+  for (std::size_t i = 0; i < scores.size(); ++i)
+    CHECK(scores[i] ==
+          Approx(1 / (1 + std::exp(-models::kLogitPerScore * predicted[first + i]))).margin(1e-5));
+}
+
+TEST_CASE("fitted networks have the same bits for any number of threads") {
+  const int threads_before = Parallel::shared().threads();
+  std::vector<std::vector<double>> fits;
+  for (const int threads : {1, 2, 5}) {
+    Parallel::shared().resize(threads);
+    const RidgeHead head = fit_ridge_head(bars().dataset, bars().frames(), bars().scores, training(),
+                                          Target::individual, DepthChoice::none, 3, HeadChoice::network);
+    fits.push_back(predictions(head, bars().dataset, bars().frames()));
+  }
+  Parallel::shared().resize(threads_before);
+  CHECK(fits[1] == fits[0]);
+  CHECK(fits[2] == fits[0]);
 }

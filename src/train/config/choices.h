@@ -17,6 +17,16 @@ constexpr auto enum_table(Target) {
   return std::to_array<EnumName<Target>>({{Target::individual, "individual"}, {Target::global, "global"}});
 }
 
+/// The head in a frame other than `camera` (head_fit.h). best: the one of the others that cross-validation over the
+/// training categories chooses.
+enum class HeadChoice { ridge, network, both, best };
+constexpr auto enum_table(HeadChoice) {
+  return std::to_array<EnumName<HeadChoice>>({{HeadChoice::ridge, "ridge"},
+                                              {HeadChoice::network, "network"},
+                                              {HeadChoice::both, "both"},
+                                              {HeadChoice::best, "best"}});
+}
+
 /// How the score becomes what SV-net learns (view_targets.h).
 enum class TargetScale { scaled, centred };
 constexpr auto enum_table(TargetScale) {

@@ -42,6 +42,7 @@ struct Config {
   struct SvNet {
     frame::FrameChoice frame = frame::FrameChoice::camera;
     frame::DepthChoice depth = frame::DepthChoice::none;
+    HeadChoice head = HeadChoice::ridge;
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;

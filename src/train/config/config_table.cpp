@@ -150,6 +150,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
       later(choice(Stage::model, "sv_net.depth", c.sv_net.depth,
                    "heights: what the depth of the top views says of heights above the table goes in too; frame axis "
                    "only.")),
+      later(choice(Stage::model, "sv_net.head", c.sv_net.head,
+                   "In other frames than camera: ridge regression, a small network (four of them, averaged), both "
+                   "averaged, or the best of these by cross-validation over the training categories.")),
       text(Stage::features, "sv_net.backbone", c.sv_net.backbone, backbone,
            "Backbone of the features of the top image."),
       text(Stage::features, "sv_net.layer", c.sv_net.layer, layer,

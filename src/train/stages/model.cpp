@@ -132,9 +132,15 @@ Model make_axis_model(const Run& run, FeaturesStage& features, const Scores& sco
   const Config& config = run.config;
   const RidgeHead head =
       fit_ridge_head(run.dataset, features.frames(config.sv_net.depth), scores, run.training_categories(),
-                     config.sv_net.target, config.sv_net.depth, run.seed());
-  run.say(joined("SV-net: ridge regression of ", head.fit.weights.size(), " inputs, penalty ", head.fit.penalty,
-                 ", explains ", 100 * (1 - head.fit.error), " % of the variance within poses of categories left out"));
+                     config.sv_net.target, config.sv_net.depth, run.seed(), config.sv_net.head);
+  const RidgeFit& ridge = head.fit.ridge;
+  run.say(joined("SV-net: ridge regression of ", ridge.weights.size(), " inputs, penalty ", ridge.penalty,
+                 ", explains ", 100 * (1 - ridge.error), " % of the variance within poses of categories left out"));
+  if (!head.fit.tried.empty())
+    run.say("SV-net: Spearman within poses of categories left out: " + tried_text(head.fit.tried));
+  if (!head.fit.networks.empty())
+    run.say(joined("SV-net: ", head.fit.networks.size(), " networks",
+                   head.fit.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
   Model model = model_of(head);
   model.input_fingerprint = fingerprint;
   return model;

@@ -1,0 +1,44 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "data/model.h"
+#include "train/config/choices.h"
+#include "train/network_head.h"
+#include "train/ridge.h"
+#include "train/within_pose.h"
+
+namespace svnet::train {
+
+/// A kind of head, and how well it orders the views of poses whose categories it was not fitted to.
+struct TriedHead {
+  HeadChoice kind;
+  WithinPose within_pose;
+};
+
+/// A head on pose inputs: ridge_share · ridge regression + (1 - ridge_share) · the mean of the networks.
+struct HeadFit {
+  RidgeFit ridge;
+  std::vector<Parameters> networks{};  ///< of models::pose_network
+  double ridge_share = 1;
+  std::vector<TriedHead> tried{};  ///< if the choice was HeadChoice::best
+};
+
+/// How many networks are averaged; each has another seed.
+inline constexpr std::size_t kNetworks = 4;
+
+/// Fits a head of a kind. With HeadChoice::best, each kind predicts the examples of the categories of each fold
+/// (folds_of_categories) after a fit to the others, and the one with the highest mean of Spearman's rank correlation
+/// within poses is fitted to all. Throws Error as fit_ridge does.
+HeadFit fit_head(const RidgeExamples& examples, const RidgeOptions& options, HeadChoice choice);
+
+/// The predicted centred score of each example. Only x and inputs of the examples count.
+std::vector<double> predictions(const HeadFit& head, const RidgeExamples& examples);
+
+/// "ridge .255, network .244, both .261", Spearman's correlations.
+std::string tried_text(const std::vector<TriedHead>& tried);
+
+/// Puts the head's graph and parameters into the model.
+void set_head(Model& model, const HeadFit& head);
+
+}  // namespace svnet::train
