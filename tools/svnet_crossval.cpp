@@ -104,6 +104,8 @@ void cross_validate(const Arguments& arguments, Console& console) {
     }
   }
   io::write_atomically(arguments.output / "crossval.json", cross_validation_json(validations));
+  if (const auto sheet = train::cross_validation_sheet(base, validations.front().result))
+    console.result("Views of some objects: " + sheet->string());
   console.result((arguments.output / "crossval.json").string());
 }
 

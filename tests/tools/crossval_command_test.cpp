@@ -61,6 +61,8 @@ TEST_CASE("svnet-crossval prints its table, writes crossval.json, and a second r
     CHECK_THAT(text, Contains(part));
   const std::string json = file_contents(place.folder.path() / "run/crossval.json");
   CHECK(nlohmann::json::parse(json).at("folds").size() == 3);
+  CHECK_THAT(text, Contains("run/views.png"));
+  CHECK(std::filesystem::exists(place.folder.path() / "run/views.png"));
   CHECK(file_contents(place.folder.path() / "run/config.yaml").find("frame: axis") != std::string::npos);
 
   const Ran again = place.run(kCrossval + "--folds 3");
@@ -78,6 +80,10 @@ TEST_CASE("svnet-crossval takes folds by name, and varies keys") {
   REQUIRE(folds.size() == 3);
   CHECK(folds[0].at("held_out") == std::vector<std::string>{"awl", "bar"});
   CHECK(folds[2].at("held_out") == std::vector<std::string>{"cue", "fid", "peg"});
+
+  place.output_of(kCrossval + "--each-choice-of 2 --quiet");
+  CHECK(place.json("run/crossval.json").at("folds").size() == 15);
+  CHECK(place.run(kCrossval + "--each-choice-of 2 --folds 3").status == 2);
 
   place.output_of(kCrossval +
                   "--folds 2 --quiet --sweep sv_net.depth=none,heights --sweep scores.clustering=ward,kmeans");

@@ -15,8 +15,13 @@ std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const E
   const Selector selectors[] = {{"top", top_views(run.dataset)},
                                 {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};
+  return write_contact_sheet(run, run.held_out, selectors);
+}
+
+std::filesystem::path write_contact_sheet(const Run& run, const std::vector<bool>& categories,
+                                          std::span<const Selector> selectors) {
   const auto path = run.folder / "views.png";
-  io::write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, run.held_out), selectors));
+  io::write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, categories), selectors));
   return path;
 }
 

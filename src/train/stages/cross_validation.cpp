@@ -9,6 +9,7 @@
 #include "train/dataset_rows.h"
 #include "train/random_problems.h"
 #include "train/selectors.h"
+#include "train/stages/contact_sheet.h"
 #include "train/stages/model.h"
 #include "train/stages/pipeline_distances.h"
 #include "train/stages/predictions.h"
@@ -72,6 +73,8 @@ void take_held_out(const Run& fold, const std::vector<Selector>& from, std::vect
         all[s].view[pose] = from[s].view[pose];
   }
 }
+
+std::vector<bool> every_category(const Run& run) { return std::vector<bool>(run.dataset.categories.size(), true); }
 
 /// The random problems of some categories.
 semantics::ClusteringProblems problems_of(const Run& run, std::vector<bool> categories) {
@@ -159,8 +162,9 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
       take_held_out(fold, choices.selectors, of_all_folds);
   }
   if (problems == FoldProblems::all_categories)
-    sets.push_back({problems_of(run, std::vector<bool>(run.dataset.categories.size(), true)), of_all_folds});
+    sets.push_back({problems_of(run, every_category(run)), of_all_folds});
   result.within_pose = mean_of(within_poses);
+  result.choices = std::move(of_all_folds);
 
   PipelineDistances distances(run.config, features);
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(run.config.evaluation.problems),
@@ -170,6 +174,15 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   result.table = evaluate(run.dataset, sets, distances.pipelines(), options, Parallel::shared(), run.messages,
                           "evaluation, held-out categories");
   return result;
+}
+
+std::optional<std::filesystem::path> cross_validation_sheet(const Run& run, const CrossValidation& validation) {
+  std::vector<Selector> shown;
+  for (const auto& [name, title] : {std::pair{"top", "top"}, {"svnet", "svnet"}, {"opt_ind", "best"}})
+    for (const Selector& selector : validation.choices)
+      if (selector.name == name) shown.push_back({title, selector.view});
+  if (shown.size() < 3) return {};
+  return write_contact_sheet(run, every_category(run), shown);
 }
 
 }  // namespace svnet::train

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -40,7 +41,12 @@ struct CrossValidation {
   EvaluationTable table;   ///< with the views that were chosen without their category
   WithinPose within_pose;  ///< over the held-out poses of all folds
   std::vector<FoldResult> folds;
+  std::vector<Selector> choices;  ///< the views of the table's selectors; empty with FoldProblems::own_categories
 };
+
+/// Writes views.png: the top view of some objects, the view that was chosen for them without their category, and the
+/// best one. Returns its path, or nothing if the choices lack one of these.
+std::optional<std::filesystem::path> cross_validation_sheet(const Run& run, const CrossValidation& validation);
 
 /// Cross-validation over categories: for each fold a model is trained as the run's configuration says, with the fold's
 /// categories held out of scores and training, and chooses views of these categories alone. Then the choices are
