@@ -10,12 +10,17 @@
 # read files and options: the preset release compiles them with -O1, which takes a fifth less time than -O2.
 function(svnet_library name)
   cmake_parse_arguments(ARG "COMPUTES" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  set(precompiled svnet_precompiled)
+  if(ARG_COMPUTES AND NOT SVNET_SANITIZE)
+    set(precompiled svnet_precompiled_computes)
+  endif()
   add_library(${name} STATIC ${ARG_SOURCES})
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR}/src)
   target_link_libraries(${name} PUBLIC ${ARG_PUBLIC} PRIVATE svnet_options ${ARG_PRIVATE})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   if(SVNET_UNITY)
     set_target_properties(${name} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    target_precompile_headers(${name} REUSE_FROM ${precompiled})
     # What is in the unnamed namespace of one file cannot be meant for another one.
     target_compile_options(${name} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
     set(highway_sources "")
@@ -52,3 +57,20 @@ function(svnet_highway_unit library)
   set_source_files_properties(${generated}/${unit} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
   set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
 endfunction()
+
+# In unity builds, the standard headers that most files include are compiled once for each set of options. Files include
+# what they need all the same: other builds have no precompiled headers.
+function(svnet_precompiled_headers name)
+  set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
+  file(CONFIGURE OUTPUT ${empty} CONTENT "")
+  add_library(${name} OBJECT ${empty})
+  target_link_libraries(${name} PRIVATE svnet_options)
+  target_compile_options(${name} PRIVATE ${ARGN})
+  set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  target_precompile_headers(${name} PRIVATE <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional>
+    <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <utility> <vector>)
+endfunction()
+if(SVNET_UNITY)
+  svnet_precompiled_headers(svnet_precompiled)
+  svnet_precompiled_headers(svnet_precompiled_computes -O3)
+endif()
