@@ -4,7 +4,8 @@
 # folder may include which is checked by tests/architecture.
 #
 # With SVNET_UNITY, up to sixteen files of a library are compiled as one: most of a small file's time goes into the headers
-# that it includes. So no two files of a library may define the same name, not even in unnamed namespaces.
+# that it includes. So no two files of a library may define the same name, not even in unnamed namespaces, and no two
+# Highway files in HWY_NAMESPACE.
 #
 # COMPUTES: compiled with -O3, which vectorises plain loops and does not change a bit of their results. Other targets
 # read files and options: the preset release compiles them with -O1, which takes a fifth less time than -O2.
@@ -72,5 +73,7 @@ function(svnet_precompiled_headers name)
 endfunction()
 if(SVNET_UNITY)
   svnet_precompiled_headers(svnet_precompiled)
-  svnet_precompiled_headers(svnet_precompiled_computes -O3)
+  if(NOT SVNET_SANITIZE)
+    svnet_precompiled_headers(svnet_precompiled_computes -O3)
+  endif()
 endif()
