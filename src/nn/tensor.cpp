@@ -24,7 +24,10 @@ Index element_count(const Shape& shape) {
 std::string to_string(const Shape& shape) {
   if (shape.empty()) return "scalar";
   std::string text;
-  for (Index size : shape) text += (text.empty() ? "" : "x") + std::to_string(size);
+  for (Index size : shape) {
+    if (!text.empty()) text += "x";
+    text += std::to_string(size);
+  }
   return text;
 }
 
