@@ -10,12 +10,11 @@
 namespace svnet::train {
 namespace {
 
-std::vector<double> inputs_of(const View& view, std::span<const frame::TopFrame> frames, frame::DepthChoice depth) {
-  const frame::TopFrame& top = frames[static_cast<std::size_t>(view.pose)];
-  return frame::pose_inputs(
-      top.axis, top.heights,
-      {.theta_deg = static_cast<double>(view.theta_deg), .phi_deg = static_cast<double>(view.phi_deg)},
-      frame::input_options(depth));
+std::vector<double> inputs_of(const View& view, std::span<const float> features, const frame::FrameSpec& spec) {
+  const auto size = static_cast<std::size_t>(frame::feature_count(spec));
+  return frame::frame_inputs(
+      spec, features.subspan(static_cast<std::size_t>(view.pose) * size, size),
+      {.theta_deg = static_cast<double>(view.theta_deg), .phi_deg = static_cast<double>(view.phi_deg)});
 }
 
 /// The standard error of a score is NaN if it is of one problem: it is then at least as uncertain as any other.
@@ -45,16 +44,18 @@ double variance_within_poses(const RidgeExamples& e) {
 
 }  // namespace
 
-RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopFrame> frames, const Scores& scores,
-                         const std::vector<bool>& categories, Target target, frame::DepthChoice depth,
+RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const float> features, const Scores& scores,
+                         const std::vector<bool>& categories, Target target, const frame::FrameSpec& spec,
                          std::uint64_t seed) {
   check_rows(dataset, scores.paths, "scores");
   const std::vector<double>& targets = target == Target::individual ? scores.individual : scores.global;
-  RidgeExamples examples{.inputs = frame::pose_input_count(frame::input_options(depth))};
+  check(features.size() == dataset.poses.size() * static_cast<std::size_t>(frame::feature_count(spec)), "[ridge] ",
+        features.size(), " features do not belong to ", dataset.poses.size(), " top views");
+  RidgeExamples examples{.inputs = frame::input_count(spec)};
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
     if (!categories[static_cast<std::size_t>(view.category)] || !std::isfinite(targets[i])) continue;
-    const std::vector<double> inputs = inputs_of(view, frames, depth);
+    const std::vector<double> inputs = inputs_of(view, features, spec);
     examples.x.insert(examples.x.end(), inputs.begin(), inputs.end());
     examples.y.push_back(targets[i]);
     examples.weight.push_back(scores.standard_error[i]);
@@ -66,16 +67,15 @@ RidgeHead fit_ridge_head(const ViewDataset& dataset, std::span<const frame::TopF
   for (double& weight : examples.weight) weight = variance > 0 ? variance / (variance + weight * weight) : 1;
 
   RidgeOptions options{.seed = seed};
-  for (const frame::InputGroup group : frame::pose_input_groups(frame::input_options(depth)))
+  for (const frame::InputGroup group : frame::input_groups(spec))
     options.small_penalty.push_back(group == frame::InputGroup::phi || group == frame::InputGroup::axis);
-  return {fit_ridge(examples, options), depth};
+  return {fit_ridge(examples, options), spec};
 }
 
-std::vector<double> predictions(const RidgeHead& head, const ViewDataset& dataset,
-                                std::span<const frame::TopFrame> frames) {
+std::vector<double> predictions(const RidgeHead& head, const ViewDataset& dataset, std::span<const float> features) {
   std::vector<double> predicted;
   for (const View& view : dataset.views) {
-    const std::vector<double> inputs = inputs_of(view, frames, head.depth);
+    const std::vector<double> inputs = inputs_of(view, features, head.spec);
     double score = head.fit.bias;
     for (std::size_t i = 0; i < inputs.size(); ++i) score += head.fit.weights[i] * inputs[i];
     predicted.push_back(score);
@@ -85,8 +85,8 @@ std::vector<double> predictions(const RidgeHead& head, const ViewDataset& datase
 
 Model model_of(const RidgeHead& head) {
   Model model;
-  model.frame = frame::FrameChoice::axis;
-  model.depth = head.depth;
+  model.frame = head.spec.frame;
+  model.depth = head.spec.depth;
   model.head = models::linear_head(static_cast<Index>(head.fit.weights.size()));
   Tensor kernel = Tensor::empty({static_cast<Index>(head.fit.weights.size()), 1}), bias = Tensor::empty({1});
   const auto logit = [](double score) { return static_cast<float>(models::kLogitPerScore * score); };

@@ -71,12 +71,15 @@ struct Bars {
     return levels[pose] + 0.1 * low - 0.1 * low * std::cos(2 * along);
   }
 
-  std::vector<frame::TopFrame> frames(DepthChoice depth = DepthChoice::none) const {
-    std::vector<frame::TopFrame> frames;
-    for (std::size_t p = 0; p < top_images.size(); ++p)
-      frames.push_back(frame::from_values(
-          frame::to_values(frame::top_frame(top_images[p], depth == DepthChoice::none ? nullptr : &depths[p]))));
-    return frames;
+  /// The features of the frame `axis` of every pose.
+  std::vector<float> frames(DepthChoice depth = DepthChoice::none) const {
+    std::vector<float> features;
+    for (std::size_t p = 0; p < top_images.size(); ++p) {
+      const frame::TopFrameValues values =
+          frame::to_values(frame::top_frame(top_images[p], depth == DepthChoice::none ? nullptr : &depths[p]));
+      features.insert(features.end(), values.begin(), values.end());
+    }
+    return features;
   }
 
   std::vector<double> levels;
@@ -101,7 +104,7 @@ std::vector<bool> others() {
 }
 
 RidgeHead fitted(const Scores& scores, DepthChoice depth = DepthChoice::none, Target target = Target::individual) {
-  return fit_ridge_head(bars().dataset, bars().frames(depth), scores, training(), target, depth, 3);
+  return fit_ridge_head(bars().dataset, bars().frames(depth), scores, training(), target, {.depth = depth}, 3);
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ TEST_CASE("a ridge head finds a rule in the object's frame that holds for other 
   for (std::size_t v = 0; v < scores.individual.size(); ++v)
     if (others()[static_cast<std::size_t>(bars().dataset.views[v].category)]) scores.individual[v] = std::nan("");
   const RidgeHead head = fitted(scores, depth);
-  CHECK(head.depth == depth);
+  CHECK(head.spec.depth == depth);
   CHECK(head.fit.error < 0.15);
   const auto predicted = predictions(head, bars().dataset, bars().frames(depth));
   const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
@@ -196,8 +199,10 @@ TEST_CASE("a ridge head needs scores of this dataset, and two categories of them
   Scores scores = bars().scores;
   std::vector<bool> one(kCategories, false);
   one[2] = true;
-  CHECK_THROWS_AS(
-      fit_ridge_head(bars().dataset, bars().frames(), scores, one, Target::individual, DepthChoice::none, 3), Error);
+  CHECK_THROWS_AS(fit_ridge_head(bars().dataset, bars().frames(), scores, one, Target::individual, {}, 3), Error);
+  CHECK_THROWS_WITH(
+      fit_ridge_head(bars().dataset, std::vector<float>(15), scores, training(), Target::individual, {}, 3),
+      "[ridge] 15 features do not belong to 32 top views");
   scores.paths[5] = "another";
   CHECK_THROWS_WITH(fitted(scores), Catch::StartsWith("scores"));
 }
