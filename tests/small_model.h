@@ -1,10 +1,11 @@
 #pragma once
 #include <cmath>
 
-#include "frame/top_frame.h"
+#include "frame/frame_inputs.h"
 #include "io/models/model_file.h"
 #include "models/backbone.h"
 #include "models/pose_head.h"
+#include "models/turned_backbone.h"
 
 /// A model with random weights that runs within milliseconds: tiny_xception with a head of width 16.
 inline svnet::Model small_model(svnet::models::AngleEncoding angles = svnet::models::AngleEncoding::radians) {
@@ -24,19 +25,53 @@ inline svnet::Model small_model(svnet::models::AngleEncoding angles = svnet::mod
   return model;
 }
 
-/// A model in the frame `axis` whose weights are made up: every input counts.
-inline svnet::Model small_axis_model(svnet::frame::DepthChoice depth = svnet::frame::DepthChoice::none) {
+/// Weights that are made up: every input counts.
+inline svnet::Tensor small_weights(const svnet::Shape& shape, float scale) {
+  svnet::Tensor weights = svnet::Tensor::empty(shape);
+  for (svnet::Index i = 0; i < weights.size(); ++i)
+    weights.data<float>()[i] = scale * std::sin(1.7f * static_cast<float>(i + 1));
+  return weights;
+}
+
+/// Gives a model the head of its frame.
+inline void set_small_head(svnet::Model& model) {
   using namespace svnet;
-  const Index inputs = frame::pose_input_count(frame::input_options(depth));
-  Model model;
-  model.frame = frame::FrameChoice::axis;
-  model.depth = depth;
+  const Index inputs = frame::input_count(frame_spec(model));
   model.head = models::linear_head(inputs);
-  Tensor kernel = Tensor::empty({inputs, 1});
-  for (Index i = 0; i < inputs; ++i) kernel.data<float>()[i] = std::sin(1.7f * static_cast<float>(i + 1));
-  model.head_parameters.set("ridge/kernel", kernel);
+  model.head_parameters.set("ridge/kernel", small_weights({inputs, 1}, 1));
   model.head_parameters.set("ridge/bias", Tensor::full({1}, 0.25f));
+}
+
+/// A model in the frame `axis`.
+inline svnet::Model small_axis_model(svnet::frame::DepthChoice depth = svnet::frame::DepthChoice::none) {
+  svnet::Model model;
+  model.frame = svnet::frame::FrameChoice::axis;
+  model.depth = depth;
+  set_small_head(model);
   model.input_fingerprint = "small axis";
+  return model;
+}
+
+/// A model in a frame with turns: tiny_xception with random weights, 6 x 6 x 160 values pooled to 3 x 3 and projected
+/// to 4.
+inline svnet::Model small_turned_model(svnet::frame::FrameChoice frame = svnet::frame::FrameChoice::turned,
+                                       svnet::frame::DepthChoice depth = svnet::frame::DepthChoice::none) {
+  using namespace svnet;
+  const models::Backbone backbone = models::random_backbone("tiny_xception", "block4_act", 2);
+  const Graph pooled = models::pooled_graph(backbone.graph());
+  Model model;
+  model.frame = frame;
+  model.depth = depth;
+  model.backbone = "tiny_xception";
+  model.preprocessing = backbone.preprocessing();
+  model.backbone_graph = models::projected_graph(pooled, 4);
+  model.backbone_output = "projection";
+  model.backbone_parameters = backbone.parameters();
+  const Index inputs = element_count(pooled.node(pooled.output()).shape);
+  model.backbone_parameters.set("projection/kernel", small_weights({inputs, 4}, 0.2f));
+  model.backbone_parameters.set("projection/bias", Tensor::full({4}, 0.5f));
+  set_small_head(model);
+  model.input_fingerprint = "small turned";
   return model;
 }
 

@@ -21,6 +21,7 @@ enum class Stream : std::uint32_t {
   collection = 9,
   augmentation = 10,
   bootstrap = 11,
+  components = 12,
 };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`

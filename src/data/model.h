@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "frame/frame_choice.h"
+#include "frame/frame_inputs.h"
 #include "models/preprocessing.h"
 #include "models/sv_net.h"
 #include "nn/graph/parameters.h"
@@ -11,21 +11,31 @@ namespace svnet {
 /// A trained SV-net: it scores camera poses for a top image.
 struct Model {
   frame::FrameChoice frame = frame::FrameChoice::camera;
-  /// Of the frame `axis` only.
+  /// Of the frames `axis` and `turned_axis` only.
   frame::DepthChoice depth = frame::DepthChoice::none;
-  // The backbone, of the frame `camera` only.
+  // The backbone, of all frames but `axis`. In frames with turns its output are the values of one turn: it ends in the
+  // layers of models/turned_backbone.h.
   std::string backbone;                 // "mobilenet"
   std::string backbone_output;          // the layer whose flattened output is the head's input
   models::Preprocessing preprocessing;  // of the top image
   Graph backbone_graph;
   Parameters backbone_parameters;
-  models::AngleEncoding angles = models::AngleEncoding::radians;
-  /// A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as taken; kSymmetries: all, and
-  /// the preprocessed image must be square.
+  models::AngleEncoding angles = models::AngleEncoding::radians;  // of the frame `camera` only
+  /// Of the frame `camera` only. A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as
+  /// taken; kSymmetries: all, and the preprocessed image must be square.
   int symmetries = 1;
-  Graph head;  // as sv_net() or, in the frame `axis`, as linear_head() makes it
+  Graph head;  // as sv_net() or, in frames other than `camera`, as linear_head() makes it
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the parameters depend on
 };
+
+/// What the head of a model in a frame other than `camera` sees.
+inline frame::FrameSpec frame_spec(const Model& model) {
+  const bool turns = frame::has_turns(model.frame);
+  const Graph& backbone = model.backbone_graph;
+  return {.frame = model.frame,
+          .depth = model.depth,
+          .components = turns ? element_count(backbone.node(backbone.find(model.backbone_output)).shape) : 0};
+}
 
 }  // namespace svnet

@@ -26,20 +26,19 @@ struct PoseInput {
 /// One list for values, names and groups, so that they cannot differ.
 std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
                                    const PoseInputOptions& options) {
-  constexpr double kTop_deg = 89.5, kLow_deg = 10, kLeastFill = 1e-4, kMostSlender = 2;
+  constexpr double kLow_deg = 10, kLeastFill = 1e-4, kMostSlender = 2;
   constexpr double kRadians = std::numbers::pi / 180;
   std::vector<PoseInput> inputs;
   const auto add = [&](InputGroup group, const Named& named) { inputs.push_back({named, group}); };
 
-  const bool is_top = pose.phi_deg >= kTop_deg;
-  const Named x{"x", (pose.phi_deg - 65) / 15};
+  const Named x{"x", scaled_elevation(pose)};
   add(InputGroup::phi, x);
   add(InputGroup::phi, {"x^2-1", x.value * x.value - 1});
-  add(InputGroup::phi, {"top", is_top ? 1.0 : 0.0});
+  add(InputGroup::phi, {"top", is_top(pose) ? 1.0 : 0.0});
   add(InputGroup::phi, {"low", pose.phi_deg < kLow_deg ? 1.0 : 0.0});
 
   const double found = axis.kind == AxisKind::found ? 1 : 0;
-  const double cos_phi = is_top ? 0 : std::cos(pose.phi_deg * kRadians);
+  const double cos_phi = is_top(pose) ? 0 : std::cos(pose.phi_deg * kRadians);
   const double alpha = (pose.theta_deg - axis.direction_deg) * kRadians, slender = 2 * (1 - axis.elongation) * cos_phi;
   const std::array<Named, 3> terms{{{"a1", found * 10 * axis.skew * cos_phi * std::cos(alpha)},
                                     {"a2", found * slender * std::cos(2 * alpha)},
@@ -79,6 +78,10 @@ std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& height
 }
 
 }  // namespace
+
+double scaled_elevation(const view::CameraPose& pose) { return (pose.phi_deg - 65) / 15; }
+
+bool is_top(const view::CameraPose& pose) { return pose.phi_deg >= 89.5; }
 
 std::vector<double> pose_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
                                 const PoseInputOptions& options) {

@@ -18,12 +18,13 @@
 //   shape    E x, S x, F x, 0 if the axis is unclear; each of a1, a2, a4 times each of E, S, F
 //   heights  T, W, G; T x, W x, G x; each of a1, a2, a4 times each of T, W; all 0 unless the heights are known;
 //            h = 1 unless they are known, else 0; h x
+// A head in a frame with turns has more inputs, of the group turned (frame_inputs.h).
 // E, S, F, T, W and G are about 0 for a common object, and of size 1. Inputs that do not depend on the pose matter only
 // to heads that compare objects.
 namespace svnet::frame {
 
-/// Inputs of one group share a penalty in a head: phi and axis a small one, shape and heights a larger one.
-enum class InputGroup { phi, axis, shape, heights };
+/// Inputs of one group share a penalty in a head: phi and axis a small one, the others a larger one.
+enum class InputGroup { phi, axis, shape, heights, turned };
 
 struct PoseInputOptions {
   bool axis = true;      ///< the group axis
@@ -35,8 +36,15 @@ constexpr auto enum_table(InputGroup) {
   return std::to_array<EnumName<InputGroup>>({{InputGroup::phi, "phi"},
                                               {InputGroup::axis, "axis"},
                                               {InputGroup::shape, "shape"},
-                                              {InputGroup::heights, "heights"}});
+                                              {InputGroup::heights, "heights"},
+                                              {InputGroup::turned, "turned"}});
 }
+
+/// x = (φ - 65) / 15.
+double scaled_elevation(const view::CameraPose& pose);
+
+/// φ >= 89.5: the azimuth does not matter.
+bool is_top(const view::CameraPose& pose);
 
 /// The inputs in the order above. Two directions that differ by a whole turn have the same inputs, up to rounding.
 /// Throws Error for a pose that is out of range (view/camera_pose.h). Heights are not used without options.heights.

@@ -18,6 +18,10 @@ inline constexpr std::int64_t kLevel = 256;
 /// height x width x 3 values.
 std::vector<std::int64_t> reduced_colours(const Image&);
 
+/// The centred square as side x side pixels: the mean colour over the area of each. Throws Error as reduced_colours
+/// does, and unless `side` is positive.
+Image reduced_image(const Image&, Index side);
+
 /// The share of each cell that `mask` (height, width; 0: background) covers is at least one half. Throws Error unless
 /// both sides are positive and the mask has height x width values.
 Grid<std::uint8_t> reduced_mask(Index height, Index width, const std::vector<std::uint8_t>& mask);

@@ -26,24 +26,6 @@ Image empty_square(Index side) {
   return {side, side, std::vector<std::uint8_t>(static_cast<std::size_t>(side * side * kChannels))};
 }
 
-/// The centred square, turned counter-clockwise by `quarters` quarter turns, 0 to 3.
-Image quarter_turned_square(const Image& image, int quarters) {
-  const Index side = std::min(image.height, image.width), end = side - 1;
-  const Index top = (image.height - side) / 2, left = (image.width - side) / 2;
-  Image square = empty_square(side);
-  for (Index i = 0; i < side; ++i)
-    for (Index j = 0; j < side; ++j) {
-      Index row = i, column = j;
-      for (int turn = 0; turn < quarters; ++turn) {
-        const Index above = row;
-        row = column;
-        column = end - above;
-      }
-      std::copy_n(pixel(image, top + row, left + column), kChannels, pixel(square, i, j));
-    }
-  return square;
-}
-
 /// The squared distance of a pixel's middle from the middle of the square, in half pixels: an integer.
 Index squared_radius_of(Index side, Index row, Index column) {
   const Index y = 2 * row - (side - 1), x = 2 * column - (side - 1);
@@ -102,6 +84,24 @@ Colour interpolated(const Image& square, double y, double x) {
 }
 
 }  // namespace
+
+Image quarter_turned_square(const Image& image, int quarters) {
+  check_pixels(image);
+  const Index side = std::min(image.height, image.width), end = side - 1;
+  const Index top = (image.height - side) / 2, left = (image.width - side) / 2;
+  Image square = empty_square(side);
+  for (Index i = 0; i < side; ++i)
+    for (Index j = 0; j < side; ++j) {
+      Index row = i, column = j;
+      for (int turn = 0; turn < quarters; ++turn) {
+        const Index above = row;
+        row = column;
+        column = end - above;
+      }
+      std::copy_n(pixel(image, top + row, left + column), kChannels, pixel(square, i, j));
+    }
+  return square;
+}
 
 Image turned_image(const Image& top_image, double theta_deg) {
   check_pixels(top_image);

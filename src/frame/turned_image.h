@@ -14,6 +14,10 @@ namespace svnet::frame {
 /// empty image, for one without height x width x 3 values, and unless theta_deg is finite.
 Image turned_image(const Image& top_image, double theta_deg);
 
+/// The centred square of the image, turned counter-clockwise by `quarters` quarter turns, 0 to 3. Throws Error as
+/// turned_image does for the image.
+Image quarter_turned_square(const Image& image, int quarters);
+
 /// The image with left and right exchanged: what the same camera would see of the mirror image of the object.
 Image mirrored(const Image&);
 

@@ -4,7 +4,9 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "frame/top_frame.h"
+#include "frame/turns.h"
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
@@ -14,8 +16,12 @@ Predictor::Predictor(const std::filesystem::path& model_file, const InferenceOpt
     : Predictor(io::read_model(model_file), options) {}
 
 Predictor::Predictor(const Model& model, const InferenceOptions& options)
-    : preprocessing_(model.preprocessing), symmetries_(model.symmetries), depth_(model.depth), head_(model, options) {
-  if (model.frame == frame::FrameChoice::camera)
+    : frame_(model.frame),
+      preprocessing_(model.preprocessing),
+      symmetries_(model.symmetries),
+      depth_(model.depth),
+      head_(model, options) {
+  if (frame::has_backbone(model.frame))
     backbone_.emplace(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
                       options);
 }
@@ -25,7 +31,18 @@ Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
   check(!uses_depth() || depth != nullptr,
         "[predict] the model was trained with depth; give the depth image of the top view too");
-  return backbone_ ? embedding(top) : measured_frame(top, uses_depth() ? depth : nullptr);
+  if (frame_ == frame::FrameChoice::camera) return embedding(top);
+  Tensor features = Tensor::empty({1, feature_count()});
+  float* to = features.data<float>();
+  if (frame::has_axis(frame_)) {
+    const frame::TopFrameValues values = frame::to_values(frame::top_frame(top, uses_depth() ? depth : nullptr));
+    to = std::copy(values.begin(), values.end(), to);
+  }
+  if (frame::has_turns(frame_)) {
+    const Tensor turns = values_of_turns(top);
+    std::copy_n(turns.data<float>(), turns.size(), to);
+  }
+  return features;
 }
 
 Tensor Predictor::embedding(const Image& top) const {
@@ -39,11 +56,15 @@ Tensor Predictor::embedding(const Image& top) const {
   return features.reshaped({1, feature_count()});
 }
 
-Tensor Predictor::measured_frame(const Image& top, const DepthImage* depth) const {
-  const frame::TopFrameValues values = frame::to_values(frame::top_frame(top, depth));
-  Tensor features = Tensor::empty({1, feature_count()});
-  std::copy(values.begin(), values.end(), features.data<float>());
-  return features;
+Tensor Predictor::values_of_turns(const Image& top) const {
+  const std::vector<Image> images = frame::turned_images(top, preprocessing_.height);
+  Tensor batch = Tensor::empty({frame::kTurns, preprocessing_.height, preprocessing_.width, 3});
+  Parallel::shared().for_chunks(frame::kTurns, 1, [&](Index turn, Index, int) {
+    prepare(preprocessing_, images[static_cast<std::size_t>(turn)], batch.data<float>() + turn * preprocessing_.size());
+  });
+  const Tensor values = backbone_->run({batch});
+  check_finite(values, "feature");
+  return values;
 }
 
 std::vector<float> Predictor::scores(const Tensor& features, std::span<const view::CameraPose> poses) const {

@@ -14,14 +14,14 @@
 namespace svnet::predict {
 
 /// A trained model for inference. A top image becomes features once; features and a camera pose become a score in
-/// [0, 1]. In the frame `axis` there is no backbone, and the features are frame::TopFrameValues. Thread-safe.
+/// [0, 1]. In frames other than `camera` the features are those of frame/frame_inputs.h. Thread-safe.
 class Predictor {
  public:
   /// Throws Error that names the file and says what is wrong.
   explicit Predictor(const std::filesystem::path& model_file, const InferenceOptions& options = {});
   explicit Predictor(const Model& model, const InferenceOptions& options = {});
 
-  /// The number D of features: over all symmetries of the top image that the model sees.
+  /// The number D of features: over all symmetries, or turns, of the top image that the model sees.
   Index feature_count() const { return head_.feature_count(); }
 
   /// Features (1, D) of a top image of any size. Throws Error for an image without pixels, if rgb does not have height
@@ -37,12 +37,14 @@ class Predictor {
 
  private:
   Tensor embedding(const Image& top) const;
-  Tensor measured_frame(const Image& top, const DepthImage* depth) const;
+  /// (kTurns, components)
+  Tensor values_of_turns(const Image& top) const;
 
+  frame::FrameChoice frame_;
   models::Preprocessing preprocessing_;
   int symmetries_;
   frame::DepthChoice depth_;
-  std::optional<Inference> backbone_;  // of the frame `camera`
+  std::optional<Inference> backbone_;  // of all frames but `axis`
   ScoreHead head_;
 };
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "base/error.h"
-#include "frame/top_frame.h"
 #include "predict/finite_check.h"
 #include "view/symmetry.h"
 
@@ -18,20 +17,15 @@ constexpr Index kPosesAtOnce = 32;
 
 /// The number of features that the head of a model takes.
 Index feature_count_of(const Model& model) {
-  switch (model.frame) {
-    case frame::FrameChoice::camera:
-      return model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape);
-    case frame::FrameChoice::axis:
-      return frame::kTopFrameSize;
-  }
-  fail("[predict] the model has an unknown frame");
+  return model.frame == frame::FrameChoice::camera
+             ? model.symmetries * element_count(model.head.node(model.head.inputs().at(0)).shape)
+             : frame::feature_count(frame_spec(model));
 }
 
 }  // namespace
 
 ScoreHead::ScoreHead(const Model& model, const InferenceOptions& options)
-    : frame_(model.frame),
-      depth_(model.depth),
+    : spec_(frame_spec(model)),
       angles_(model.angles),
       symmetries_(model.symmetries),
       feature_count_(feature_count_of(model)),
@@ -46,27 +40,18 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
     const std::string problem = pose_problem(poses[i]);
     check(problem.empty(), "[predict] pose ", i, ": ", problem);
   }
-  switch (frame_) {
-    case frame::FrameChoice::camera:
-      return camera_scores(features, poses);
-    case frame::FrameChoice::axis:
-      return axis_scores(features, poses);
-  }
-  return {};
+  return spec_.frame == frame::FrameChoice::camera ? camera_scores(features, poses) : frame_scores(features, poses);
 }
 
-std::vector<float> ScoreHead::axis_scores(const Tensor& features, std::span<const CameraPose> poses) const {
-  const frame::TopFrame top =
-      frame::from_values(std::span<const float, frame::kTopFrameSize>(features.data<float>(), frame::kTopFrameSize));
-  const frame::PoseInputOptions options = frame::input_options(depth_);
-  const Index inputs = frame::pose_input_count(options), count = static_cast<Index>(poses.size());
+std::vector<float> ScoreHead::frame_scores(const Tensor& features, std::span<const CameraPose> poses) const {
+  const Index inputs = frame::input_count(spec_), count = static_cast<Index>(poses.size());
   std::vector<float> result;
   for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
     const Index size = std::min(kPosesAtOnce, count - begin);
     Tensor batch = Tensor::empty({size, inputs});
     for (Index i = 0; i < size; ++i) {
       const auto values =
-          frame::pose_inputs(top.axis, top.heights, poses[static_cast<std::size_t>(begin + i)], options);
+          frame::frame_inputs(spec_, features.values<float>(), poses[static_cast<std::size_t>(begin + i)]);
       std::transform(values.begin(), values.end(), batch.data<float>() + i * inputs,
                      [](double value) { return static_cast<float>(value); });
     }

@@ -8,13 +8,13 @@
 
 namespace svnet::predict {
 
-/// A trained model without its backbone: it scores camera poses from features. In the frame `axis` the features are
-/// frame::TopFrameValues. Thread-safe.
+/// A trained model without its backbone: it scores camera poses from features. In frames other than `camera`
+/// these are the features of frame/frame_inputs.h. Thread-safe.
 class ScoreHead {
  public:
   explicit ScoreHead(const Model& model, const InferenceOptions& options = {});
 
-  /// The number D of features: over all symmetries of the top image that the model sees.
+  /// The number D of features: over all symmetries, or turns, of the top image that the model sees.
   Index feature_count() const { return feature_count_; }
 
   /// One score per pose, in order. A score does not depend on the other poses of the call, and poses a whole turn apart
@@ -24,10 +24,9 @@ class ScoreHead {
 
  private:
   std::vector<float> camera_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
-  std::vector<float> axis_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
+  std::vector<float> frame_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
-  frame::FrameChoice frame_;
-  frame::DepthChoice depth_;
+  frame::FrameSpec spec_;
   models::AngleEncoding angles_;
   int symmetries_;
   Index feature_count_;

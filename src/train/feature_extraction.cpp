@@ -17,8 +17,6 @@ using models::Preprocessing;
 
 namespace {
 
-constexpr Index kBatch = 16;
-
 /// The views [begin, end) as a batch (N, H, W, 3).
 Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
                       Parallel& parallel) {
@@ -74,44 +72,53 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
   return origin;
 }
 
-Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages, Communicator& communicator) {
-  const auto count = static_cast<Index>(dataset.views.size());
-  const Index dimension = backbone.dimension();
-  Features features{origin, count, dimension, {}, {}, {}};
-  features.values.resize(static_cast<std::size_t>(count * dimension));
-  for (const View& view : dataset.views) {
-    features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
-    features.paths.push_back(view.path);
-  }
+std::vector<float> extracted(const Extraction& e, const Messages& messages, Communicator& communicator) {
+  std::vector<float> rows(static_cast<std::size_t>(e.count * e.dimension));
   // Shares are whole batches, as they would be without a communicator.
-  const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((count + kBatch - 1) / kBatch));
-  const Index first = static_cast<Index>(share.first) * kBatch;
-  const Index last = std::min(count, static_cast<Index>(share.last) * kBatch);
-  Progress progress(messages, "features of " + backbone.kind().name, std::max<Index>(last - first, 0));
+  const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((e.count + e.batch - 1) / e.batch));
+  const Index first = static_cast<Index>(share.first) * e.batch;
+  const Index last = std::min(e.count, static_cast<Index>(share.last) * e.batch);
+  Progress progress(messages, "features of " + e.network, std::max<Index>(last - first, 0));
   // The network has the shared pool. The future comes last: it waits for what the readers still do.
   Parallel readers(Parallel::shared().threads());
   const auto launch = readers.threads() > 1 ? std::launch::async : std::launch::deferred;
   std::future<Tensor> next;
   const auto prepare_from = [&](Index begin) {
-    next = std::async(launch, [&, begin] {
-      return prepared_batch(backbone.preprocessing(), dataset, begin, std::min(begin + kBatch, last), readers);
-    });
+    next = std::async(launch, [&, begin] { return e.prepared(begin, std::min(begin + e.batch, last), readers); });
   };
   if (first < last) prepare_from(first);
-  for (Index begin = first; begin < last; begin += kBatch) {
-    const Index size = std::min(kBatch, last - begin);
+  for (Index begin = first; begin < last; begin += e.batch) {
+    const Index size = std::min(e.batch, last - begin);
     const Tensor batch = next.get();
-    if (begin + kBatch < last) prepare_from(begin + kBatch);
-    const Tensor values = backbone.features(batch);
+    if (begin + e.batch < last) prepare_from(begin + e.batch);
+    const Tensor values = e.run(batch);
     if (const auto bad = first_not_finite(values.values<float>()))
-      fail("[", backbone.kind().name, "] a feature of ",
-           dataset.views[static_cast<std::size_t>(begin) + *bad / static_cast<std::size_t>(dimension)].path,
+      fail("[", e.network, "] a feature of ", e.name(begin + static_cast<Index>(*bad) / e.dimension),
            " is not finite: the weights do not fit this network");
-    std::copy_n(values.data<float>(), values.size(), features.values.data() + begin * dimension);
+    std::copy_n(values.data<float>(), values.size(), rows.data() + begin * e.dimension);
     progress.update(begin + size - first);
   }
-  communicator.all_reduce(features.values);
+  communicator.all_reduce(rows);
+  return rows;
+}
+
+Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
+                          const Messages& messages, Communicator& communicator) {
+  Features features{origin, static_cast<Index>(dataset.views.size()), backbone.dimension(), {}, {}, {}};
+  for (const View& view : dataset.views) {
+    features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+    features.paths.push_back(view.path);
+  }
+  features.values = extracted({.network = backbone.kind().name,
+                               .count = features.count,
+                               .dimension = features.dimension,
+                               .prepared =
+                                   [&](Index begin, Index end, Parallel& parallel) {
+                                     return prepared_batch(backbone.preprocessing(), dataset, begin, end, parallel);
+                                   },
+                               .run = [&](const Tensor& batch) { return backbone.features(batch); },
+                               .name = [&](Index view) { return features.paths[static_cast<std::size_t>(view)]; }},
+                              messages, communicator);
   return features;
 }
 

@@ -1,5 +1,10 @@
 #pragma once
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "base/communicator.h"
+#include "base/parallel.h"
 #include "base/progress.h"
 #include "data/view_dataset.h"
 #include "io/views/features_file.h"
@@ -13,6 +18,23 @@ namespace svnet::train {
 /// the number of threads and processes, or on the images that share a batch.
 Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator);
+
+/// How numbered inputs become rows of values.
+struct Extraction {
+  std::string network;  ///< its name, for messages
+  Index count = 0;      ///< of the inputs
+  Index dimension = 0;  ///< of a row
+  Index batch = 16;     ///< inputs that share a run
+  /// The inputs [begin, end) as a batch. Is called in another thread than `run`.
+  std::function<Tensor(Index begin, Index end, Parallel& parallel)> prepared;
+  /// The rows of a batch, (inputs, dimension) in order.
+  std::function<Tensor(const Tensor& batch)> run;
+  /// What an input is called in the message that a value is not finite.
+  std::function<std::string(Index input)> name;
+};
+
+/// The rows of all inputs, (count, dimension), as extract_features makes them.
+std::vector<float> extracted(const Extraction& extraction, const Messages& messages, Communicator& communicator);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const models::Preprocessing& preprocessing);

@@ -33,8 +33,8 @@ void check_config(const Run& run) {
     check_weights(name, config.weights.folder);
   };
   for (const auto& name : scored_backbones(config.scores)) check_backbone(name, scored_layer(config.scores, name));
+  if (frame::has_backbone(config.sv_net.frame)) check_backbone(config.sv_net.backbone, config.sv_net.layer);
   if (config.sv_net.frame == frame::FrameChoice::camera) {
-    check_backbone(config.sv_net.backbone, config.sv_net.layer);
     const BackboneKind& tuned = models::backbone_kind(config.sv_net.backbone);
     const Graph graph = tuned.graph(tuned.preprocessing.height, true);
     static_cast<void>(

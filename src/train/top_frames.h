@@ -9,8 +9,8 @@
 
 namespace svnet::train {
 
-/// What a head in the frame `axis` sees of every pose of a dataset, in its order: the rounding of the floats included,
-/// so that training sees what prediction will see.
+/// What a head in the frames `axis` and `turned_axis` sees of every pose of a dataset, in its order: the rounding of
+/// the floats included, so that training sees what prediction will see.
 std::vector<frame::TopFrame> top_frames(const ViewDataset& dataset, frame::DepthChoice depth, const Messages& messages,
                                         Parallel& parallel);
 

@@ -242,7 +242,7 @@ TEST_CASE("a model that uses depth takes it, and is refused without it") {
 TEST_CASE("a model that does not use depth ignores it") {
   const Image image = small_image();
   const std::vector<float> depth(70 * 50, 0.5f);
-  for (const Model& model : {small_model(), small_axis_model()}) {
+  for (const Model& model : {small_model(), small_axis_model(), small_turned_model()}) {
     const Loaded loaded(model);
     CHECK(svnet_uses_depth(loaded.model) == 0);
     const std::vector<float> expected = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
@@ -250,6 +250,23 @@ TEST_CASE("a model that does not use depth ignores it") {
     REQUIRE(svnet_embed_with_depth(loaded.model, image.rgb.data(), 70, 50, 150, SVNET_RGB8, depth.data(),
                                    features.data()) == SVNET_OK);
     CHECK(features == expected);
+  }
+}
+
+TEST_CASE("a model in a frame with turns gives the features and scores of its predictor") {
+  for (const frame::FrameChoice frame : {frame::FrameChoice::turned, frame::FrameChoice::turned_axis}) {
+    const Model model = small_turned_model(frame);
+    const Loaded loaded(model);
+    const Predictor predictor(model);
+    const Image image = small_image();
+    const Tensor expected = predictor.embed(image);
+    const std::vector<float> features = loaded.embed(image.rgb, 70, 50, 150, SVNET_RGB8);
+    REQUIRE(features.size() == static_cast<std::size_t>(expected.size()));
+    CHECK(std::equal(features.begin(), features.end(), expected.data<float>()));
+    std::vector<float> scores(3);
+    const double pairs[] = {0, 45, 90, 60, 90, 90};
+    REQUIRE(svnet_score(loaded.model, features.data(), pairs, 3, scores.data()) == SVNET_OK);
+    CHECK(scores == predictor.scores(expected, std::vector<CameraPose>{{0, 45}, {90, 60}, {90, 90}}));
   }
 }
 

@@ -13,6 +13,7 @@
 #include "io/tensors/tensor_file.h"
 #include "models/backbone.h"
 #include "models/pose_head.h"
+#include "models/turned_backbone.h"
 #include "nn/graph/run.h"
 #include "temporary_folder.h"
 
@@ -44,6 +45,20 @@ Model axis_model(frame::DepthChoice depth) {
   model.head = linear_head(frame::pose_input_count(frame::input_options(depth)));
   model.head_parameters = initial_parameters(model.head, 4);
   model.input_fingerprint = "abc";
+  return model;
+}
+
+Model turned_model(frame::FrameChoice choice, frame::DepthChoice depth) {
+  const Backbone backbone = random_backbone("tiny_xception", "", 2);
+  Model model = axis_model(depth);
+  model.frame = choice;
+  model.backbone = "tiny_xception";
+  model.backbone_output = "projection";
+  model.preprocessing = backbone.preprocessing();
+  model.backbone_graph = projected_graph(pooled_graph(backbone.graph()), 2);
+  model.backbone_parameters = initial_parameters(model.backbone_graph, 3);
+  model.head = linear_head(frame::input_count(frame_spec(model)));
+  model.head_parameters = initial_parameters(model.head, 4);
   return model;
 }
 
@@ -142,6 +157,59 @@ TEST_CASE("a damaged model in the frame axis is refused") {
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()));
   write_changed(path, bad, [](nlohmann::json& description) { description.erase("frame"); });
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
+}
+
+TEST_CASE("a model in a frame with turns is read with the same bits, its backbone too") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  const auto [choice, depth] = GENERATE(std::pair{frame::FrameChoice::turned, frame::DepthChoice::none},
+                                        std::pair{frame::FrameChoice::turned_axis, frame::DepthChoice::none},
+                                        std::pair{frame::FrameChoice::turned_axis, frame::DepthChoice::heights});
+  const Model model = turned_model(choice, depth);
+  write_model(path, model);
+  const Model back = read_model(path);
+  CHECK(back.frame == choice);
+  CHECK(back.depth == depth);
+  CHECK(back.backbone == "tiny_xception");
+  CHECK(back.backbone_output == "projection");
+  CHECK(frame_spec(back).components == 2);
+  CHECK(back.preprocessing.height == 96);
+  for (const auto& [name, value] : model.head_parameters.items()) CHECK(equal(back.head_parameters.at(name), value));
+  for (const auto& [name, value] : model.backbone_parameters.items())
+    CHECK(equal(back.backbone_parameters.at(name), value));
+  const auto description = TensorFile::read(path, "model").description();
+  CHECK(description.at("frame") == nlohmann::json{{"kind", name_of(choice)}, {"depth", name_of(depth)}});
+  CHECK(description.contains("backbone"));
+  CHECK_FALSE(description.contains("angles"));
+}
+
+TEST_CASE("a damaged model in a frame with turns is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors", bad = temporary.path() / "bad.safetensors";
+  const Model good = turned_model(frame::FrameChoice::turned, frame::DepthChoice::none);
+  write_model(path, good);
+  const auto read_changed = [&](const std::function<void(nlohmann::json&)>& change) {
+    write_changed(path, bad, change);
+    static_cast<void>(read_model(bad));
+  };
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["frame"]["kind"] = "turned_axis"; }),
+                    Catch::Contains("the head does not take the ") && Catch::Contains(" inputs of a camera pose"));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["frame"]["depth"] = "heights"; }),
+                    bad.string() + ": frame: the frame turned has no depth, expected none, got heights");
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d.erase("backbone"); }),
+                    Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["backbone"]["output"] = "avg_pool"; }),
+                    Catch::Contains("the head does not take the "));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["backbone"]["output"] = "projektion"; }),
+                    Catch::StartsWith(bad.string()) && Catch::Contains("'projection'"));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["preprocessing"]["width"] = 64; }),
+                    bad.string() + ": images of 96x64 cannot be turned; only square ones can");
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["preprocessing"]["width"] = d["preprocessing"]["height"] = 64; }),
+                    bad.string() + ": the backbone does not take images of 64x64, as preprocessing makes them");
+  Model narrow = good;
+  narrow.backbone_parameters.set("projection/bias", Tensor::zeros({3}));
+  write_model(bad, narrow);
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": tensor 'backbone/projection/bias' is 3, expected 2");
 }
 
 TEST_CASE("the file of a model in the frame camera does not say a frame") {

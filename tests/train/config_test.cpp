@@ -436,8 +436,16 @@ TEST_CASE("the resolved configuration of every preset reads back equal") {
   }
 }
 
-TEST_CASE("depth is of the frame axis only") {
-  const std::string problem = ": only the frame axis reads depth; set sv_net.frame to axis";
+TEST_CASE("depth is of the frames with an axis only") {
+  const std::string problem = ": only the frames axis and turned_axis read depth; set sv_net.frame to one of them";
+  CHECK(error_of(kBase + "sv_net:\n  depth: heights\n  frame: turned\n") == "c.yaml:4: sv_net.depth" + problem);
+  const Config both = parse(kBase, {"sv_net.frame=turned_axis", "sv_net.depth=heights"});
+  CHECK(both.sv_net.frame == frame::FrameChoice::turned_axis);
+  CHECK(parse_config(to_yaml(both), "resolved", "/elsewhere").sv_net.frame == frame::FrameChoice::turned_axis);
+  CHECK(parse(kBase, {"sv_net.frame=turned"}).sv_net.frame == frame::FrameChoice::turned);
+  CHECK(error_of_override("sv_net.frame=turn") ==
+        "--set sv_net.frame: unknown value 'turn', expected one of camera, axis, turned, turned_axis; did you mean "
+        "'turned'?");
   CHECK(error_of_override("sv_net.depth=heights") == "--set sv_net.depth" + problem);
   CHECK(error_of(kBase + "sv_net:\n  depth: heights\n") == "c.yaml:4: sv_net.depth" + problem);
   CHECK(error_of(kBase + "preset: best\nsv_net:\n  depth: heights\n  frame: camera\n") ==

@@ -14,9 +14,10 @@
 #include "io/views/scores_file.h"
 #include "small_run.h"
 #include "temporary_folder.h"
-#include "train/ridge_head.h"
+#include "train/frame_head.h"
 #include "train/stages/cross_validation_text.h"
 #include "train/stages/predictions.h"
+#include "train/stages/top_features.h"
 
 using namespace svnet;
 using namespace svnet::train;
@@ -162,8 +163,8 @@ TEST_CASE("every category is chosen by a model that never saw it, and the choice
       held_out.push_back(std::find(kFolds[f].begin(), kFolds[f].end(), category) != kFolds[f].end());
     std::vector<bool> training = held_out;
     training.flip();
-    const Model expected = model_of(fit_ridge_head(run.dataset, features.frames(frame::DepthChoice::none), scores,
-                                                   training, Target::individual, frame::DepthChoice::none, run.seed()));
+    const Model expected = model_of(fit_frame_head(run.dataset, top_features(run, features, model), scores, training,
+                                                   Target::individual, frame_spec(model), run.seed()));
     const auto weights = model.head_parameters.at("ridge/kernel").values<float>(),
                from_others = expected.head_parameters.at("ridge/kernel").values<float>();
     CHECK(std::equal(weights.begin(), weights.end(), from_others.begin(), from_others.end()));

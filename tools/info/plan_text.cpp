@@ -72,7 +72,7 @@ std::string model_plan(const std::filesystem::path& file, Index batch, const Inf
   const Model model = io::read_model(file);
   const Inference head(model.head, model.head_parameters, model.head.output(), options);
   const std::string head_text = joined("SV-net\n", plan_text(head, batch));
-  if (model.frame == frame::FrameChoice::axis) return head_text;
+  if (!frame::has_backbone(model.frame)) return head_text;
   const Graph& graph = model.backbone_graph;
   const Inference backbone(graph, model.backbone_parameters, graph.find(model.backbone_output), options);
   return joined(printable(model.backbone), " to ", printable(model.backbone_output), "\n", plan_text(backbone, batch),

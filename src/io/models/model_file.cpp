@@ -2,7 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "frame/top_frame.h"
+#include "frame/frame_inputs.h"
 #include "io/models/graph_json.h"
 #include "io/tensors/tensor_file.h"
 #include "view/symmetry.h"
@@ -40,16 +40,25 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
       file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
 }
 
+void check_backbone(const Model& model) {
+  const Preprocessing& p = model.preprocessing;
+  const auto images = model.backbone_graph.inputs();
+  check(images.size() == 1 && model.backbone_graph.node(images[0]).shape == Shape{p.height, p.width, 3},
+        "the backbone does not take images of ", p.height, "x", p.width, ", as preprocessing makes them");
+  static_cast<void>(model.backbone_graph.find(model.backbone_output));
+}
+
+void check_square(const Preprocessing& p) {
+  check(p.height == p.width, "images of ", p.height, "x", p.width, " cannot be turned; only square ones can");
+}
+
 void check_camera_model(const Model& model) {
   check(model.symmetries == 1 || model.symmetries == view::kSymmetries, "there are ", model.symmetries,
         " orientations, expected 1 or ", view::kSymmetries);
-  const Preprocessing& p = model.preprocessing;
-  check(model.symmetries == 1 || p.height == p.width, "images of ", p.height, "x", p.width,
-        " cannot be turned; only square ones can");
+  if (model.symmetries != 1) check_square(model.preprocessing);
+  check_backbone(model);
   const Graph &backbone = model.backbone_graph, &head = model.head;
-  const auto images = backbone.inputs(), inputs = head.inputs();
-  check(images.size() == 1 && backbone.node(images[0]).shape == Shape{p.height, p.width, 3},
-        "the backbone does not take images of ", p.height, "x", p.width, ", as preprocessing makes them");
+  const auto inputs = head.inputs();
   const Shape& features = backbone.node(backbone.find(model.backbone_output)).shape;
   check(inputs.size() == 2 && head.node(inputs[0]).shape == Shape{element_count(features)} &&
             head.node(inputs[1]).shape == Shape{angle_count(model.angles)} &&
@@ -58,9 +67,16 @@ void check_camera_model(const Model& model) {
         " features and the angles, or gives more than one score");
 }
 
-void check_axis_model(const Model& model) {
+/// A model in a frame other than `camera`.
+void check_frame_model(const Model& model) {
+  check(model.depth == frame::DepthChoice::none || frame::has_axis(model.frame), "frame: the frame ",
+        name_of(model.frame), " has no depth, expected none, got ", name_of(model.depth));
+  if (frame::has_turns(model.frame)) {
+    check_square(model.preprocessing);
+    check_backbone(model);
+  }
   const Graph& head = model.head;
-  const Index inputs = frame::pose_input_count(frame::input_options(model.depth));
+  const Index inputs = frame::input_count(frame_spec(model));
   check(head.inputs().size() == 1 && head.node(head.inputs()[0]).shape == Shape{inputs} &&
             head.node(head.output()).shape == Shape{1},
         "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
@@ -68,26 +84,18 @@ void check_axis_model(const Model& model) {
 
 /// The description of what the head sees.
 json input_to_json(const Model& model, const Graph& backbone) {
-  switch (model.frame) {
-    case FrameChoice::camera:
-      return {{"backbone",
-               {{"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}}},
-              {"preprocessing", preprocessing_to_json(model.preprocessing)},
-              {"angles",
-               {{"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}}}};
-    case FrameChoice::axis:
-      return {{"frame", {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}}}};
+  json input;
+  if (frame::has_backbone(model.frame)) {
+    input["backbone"] = {
+        {"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}};
+    input["preprocessing"] = preprocessing_to_json(model.preprocessing);
   }
-  fail("[model] there is no such frame");
-}
-
-void read_camera_input(const json& input, Model& model) {
-  const json& backbone = input.at("backbone");
-  model.backbone = backbone.at("name").get<std::string>();
-  model.backbone_output = backbone.at("output").get<std::string>();
-  model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
-  model.preprocessing = preprocessing_from_json(input.at("preprocessing"));
-  model.angles = models::angle_encoding_named(input.at("angles").at("encoding").get<std::string>());
+  if (model.frame == FrameChoice::camera)
+    input["angles"] = {
+        {"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}};
+  else
+    input["frame"] = {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}};
+  return input;
 }
 
 template <class Enum>
@@ -101,9 +109,9 @@ Enum choice_from_json(const json& from, const char* key) {
 }  // namespace
 
 void write_model(const std::filesystem::path& path, const Model& model) {
-  const bool has_backbone = model.frame == FrameChoice::camera;
-  const Graph backbone =
-      has_backbone ? model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output)) : Graph();
+  const Graph backbone = frame::has_backbone(model.frame)
+                             ? model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output))
+                             : Graph();
   TensorFile file;
   file.description() = input_to_json(model, backbone);
   file.description()["kind"] = "model";
@@ -117,36 +125,48 @@ void write_model(const std::filesystem::path& path, const Model& model) {
 
 namespace {
 
-Model model_of(const TensorFile& file) {
-  Model model;
-  model.input_fingerprint = file.get<std::string>("input_fingerprint");
-  const json head = file.get<json>("head");
-  json input;  // what the head sees
-  if (file.description().contains("frame"))
-    input["frame"] = file.get<json>("frame");
-  else
-    for (const char* member : {"backbone", "angles", "preprocessing"}) input[member] = file.get<json>(member);
+/// Calls `read`, whose errors get the name of the file.
+template <class Read>
+void reading(const TensorFile& file, const Read& read) {
   try {
-    if (input.contains("frame")) {
-      model.frame = choice_from_json<FrameChoice>(input["frame"], "kind");
-      model.depth = choice_from_json<frame::DepthChoice>(input["frame"], "depth");
-    }
-    model.head = graph_from_json(head.at("graph"), "head");
-    model.symmetries = head.value("orientations", 1);
-    switch (model.frame) {
-      case FrameChoice::camera:
-        read_camera_input(input, model);
-        check_camera_model(model);
-        break;
-      case FrameChoice::axis:
-        check_axis_model(model);
-        break;
-    }
+    read();
   } catch (const Error& error) {
     fail(file.path(), ": ", error.what());
   } catch (const json::exception& error) {
     fail(file.path(), ": ", error.what());
   }
+}
+
+Model model_of(const TensorFile& file) {
+  Model model;
+  model.input_fingerprint = file.get<std::string>("input_fingerprint");
+  if (file.description().contains("frame")) {
+    const json frame = file.get<json>("frame");
+    reading(file, [&] {
+      model.frame = choice_from_json<FrameChoice>(frame, "kind");
+      model.depth = choice_from_json<frame::DepthChoice>(frame, "depth");
+    });
+  }
+  const bool is_camera = model.frame == FrameChoice::camera, has_backbone = frame::has_backbone(model.frame);
+  const json head = file.get<json>("head"), backbone = has_backbone ? file.get<json>("backbone") : json(),
+             preprocessing = has_backbone ? file.get<json>("preprocessing") : json(),
+             angles = is_camera ? file.get<json>("angles") : json();
+  reading(file, [&] {
+    model.head = graph_from_json(head.at("graph"), "head");
+    if (has_backbone) {
+      model.backbone = backbone.at("name").get<std::string>();
+      model.backbone_output = backbone.at("output").get<std::string>();
+      model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
+      model.preprocessing = preprocessing_from_json(preprocessing);
+    }
+    if (is_camera) {
+      model.angles = models::angle_encoding_named(angles.at("encoding").get<std::string>());
+      model.symmetries = head.value("orientations", 1);
+      check_camera_model(model);
+    } else {
+      check_frame_model(model);
+    }
+  });
   model.backbone_parameters = file.parameters("backbone", model.backbone_graph);
   model.head_parameters = file.parameters("head", model.head);
   return model;

@@ -12,8 +12,8 @@ namespace svnet::io {
 // "head/<layer>/<parameter>". Its description is {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels",
 // "height", "width", "interpolation", "channels"}, "head": {"graph", "orientations"}, "angles": {"encoding", "unit",
 // "order"}, "input_fingerprint"}. "orientations" is the number of symmetries and is left out if it is 1.
-// A model in the frame `axis` has no tensors of a backbone, and "frame": {"kind", "depth"} instead of "backbone",
-// "preprocessing" and "angles".
+// A model in another frame than `camera` has "frame": {"kind", "depth"} instead of "angles". In the frame `axis` it has
+// no tensors of a backbone, and neither "backbone" nor "preprocessing".
 
 /// Replaces the file as a whole. Layers of the backbone that its output does not need are left out.
 void write_model(const std::filesystem::path& path, const Model& model);

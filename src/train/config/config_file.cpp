@@ -88,8 +88,8 @@ void check_together(const Config& c, const ConfigReader& reader) {
         ": no rule says when to stop, set scores.min_samples, scores.problems or scores.target_error above 0");
   check(s.max_categories == 0 || s.max_categories >= s.min_categories, reader.where("scores.max_categories"), ": ",
         s.max_categories, " is less than scores.min_categories ", s.min_categories);
-  check(c.sv_net.depth == frame::DepthChoice::none || c.sv_net.frame == frame::FrameChoice::axis,
-        reader.where("sv_net.depth"), ": only the frame axis reads depth; set sv_net.frame to axis");
+  check(c.sv_net.depth == frame::DepthChoice::none || frame::has_axis(c.sv_net.frame), reader.where("sv_net.depth"),
+        ": only the frames axis and turned_axis read depth; set sv_net.frame to one of them");
   check(s.max_objects == 0 || s.max_objects >= s.min_objects, reader.where("scores.max_objects"), ": ", s.max_objects,
         " is less than scores.min_objects ", s.min_objects);
 }

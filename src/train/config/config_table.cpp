@@ -146,10 +146,11 @@ std::vector<BoundKey> bound_keys(Config& c) {
 
       later(choice(Stage::model, "sv_net.frame", c.sv_net.frame,
                    "camera: features of the top image as taken, and the angles. axis: what is measured from the "
-                   "object's own axis, fitted by ridge regression, without a backbone.")),
+                   "object's own axis, fitted by ridge regression, without a backbone. turned: features of the top "
+                   "image turned to the camera, fitted by ridge regression. turned_axis: both.")),
       later(choice(Stage::model, "sv_net.depth", c.sv_net.depth,
-                   "heights: what the depth of the top views says of heights above the table goes in too; frame axis "
-                   "only.")),
+                   "heights: what the depth of the top views says of heights above the table goes in too; frames axis "
+                   "and turned_axis only.")),
       later(choice(Stage::model, "sv_net.head", c.sv_net.head,
                    "In other frames than camera: ridge regression, a small network (four of them, averaged), both "
                    "averaged, or the best of these by cross-validation over the training categories.")),

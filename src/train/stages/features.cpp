@@ -1,10 +1,21 @@
 #include "train/stages/features.h"
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/top_frames.h"
+#include "train/turned_features.h"
+#include "train/turned_projection.h"
 
 namespace svnet::train {
+namespace {
+
+/// Of the file of features.
+std::string file_stem(const std::string& backbone, const std::string& layer) {
+  return "features-" + backbone + (layer.empty() ? "" : "-" + layer);
+}
+
+}  // namespace
 
 const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const std::string& layer) {
   const std::string key = name + "/" + layer;
@@ -19,17 +30,45 @@ std::string FeaturesStage::fingerprint(const std::string& name, const std::strin
   return features_origin(backbone(name, layer), run_.dataset_fingerprint).input_fingerprint;
 }
 
-const Features& FeaturesStage::features(const std::string& name, const std::string& layer) {
-  const std::filesystem::path path = run_.folder / ("features-" + name + (layer.empty() ? "" : "-" + layer) + ".h5");
+const Features& FeaturesStage::stored(const std::filesystem::path& path, const FeaturesOrigin& origin,
+                                      const std::string& content, const std::function<Features()>& make) {
   const auto found = features_.find(path);
   if (found != features_.end()) return found->second;
+  const StageFile file{.path = path, .fingerprint = origin.input_fingerprint, .content = content};
+  return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, io::write_features)).first->second;
+}
+
+const Features& FeaturesStage::features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, run_.dataset_fingerprint);
-  const auto make = [&] {
+  return stored(run_.folder / (file_stem(name, layer) + ".h5"), origin, "features of " + name, [&] {
     return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
-  };
-  const StageFile file{.path = path, .fingerprint = origin.input_fingerprint, .content = "features of " + name};
-  return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, io::write_features)).first->second;
+  });
+}
+
+const Features& FeaturesStage::turned_features(const std::string& name, const std::string& layer) {
+  const BackboneWithOrigin& source = backbone(name, layer);
+  const FeaturesOrigin origin = turned_features_origin(source, run_.dataset_fingerprint);
+  return stored(run_.folder / (file_stem(name, layer) + "-turned.h5"), origin, "turned features of " + name, [&] {
+    return extract_turned_features(source.backbone, run_.dataset, origin, run_.inference, run_.messages,
+                                   run_.communicator);
+  });
+}
+
+std::string FeaturesStage::turned_fingerprint(const std::string& name, const std::string& layer) {
+  return joined(turned_features_origin(backbone(name, layer), run_.dataset_fingerprint).input_fingerprint, " 1 ",
+                kTurnedComponents);  // "1": how components are found
+}
+
+const PrincipalComponents& FeaturesStage::turned_components(const std::string& name, const std::string& layer,
+                                                            const std::vector<bool>& categories) {
+  if (components_ && components_->backbone == name && components_->layer == layer &&
+      components_->categories == categories)
+    return components_->components;
+  const Features& turned = turned_features(name, layer);
+  components_ = {name, layer, categories,
+                 train::turned_components(run_.dataset, turned, categories, run_.seed(), Parallel::shared())};
+  return components_->components;
 }
 
 const std::vector<frame::TopFrame>& FeaturesStage::frames(frame::DepthChoice depth) {

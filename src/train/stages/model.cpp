@@ -9,13 +9,15 @@
 #include "models/trained_graph.h"
 #include "train/config/fingerprint.h"
 #include "train/epoch_order.h"
-#include "train/ridge_head.h"
+#include "train/frame_head.h"
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
+#include "train/stages/top_features.h"
 #include "train/stages/wanted_scores.h"
 #include "train/top_frames.h"
 #include "train/trained_from.h"
 #include "train/trainer.h"
+#include "train/turned_projection.h"
 #include "train/validation_categories.h"
 #include "view/symmetry.h"
 
@@ -30,9 +32,20 @@ namespace {
 std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
   const Config& config = run.config;
   const std::string scores = wanted_scores_fingerprint(config, features);
-  if (config.sv_net.frame == FrameChoice::axis)
-    return model_fingerprint(train::fingerprint(features.frames(config.sv_net.depth)), scores, config);
-  return model_fingerprint(features.fingerprint(config.sv_net.backbone, config.sv_net.layer), scores, config);
+  const Config::SvNet& sv_net = config.sv_net;
+  const auto turned = [&] { return features.turned_fingerprint(sv_net.backbone, sv_net.layer); };
+  const auto axis = [&] { return train::fingerprint(features.frames(sv_net.depth)); };
+  switch (sv_net.frame) {
+    case FrameChoice::camera:
+      return model_fingerprint(features.fingerprint(sv_net.backbone, sv_net.layer), scores, config);
+    case FrameChoice::axis:
+      return model_fingerprint(axis(), scores, config);
+    case FrameChoice::turned:
+      return model_fingerprint(turned(), scores, config);
+    case FrameChoice::turned_axis:
+      return model_fingerprint(turned() + " " + axis(), scores, config);
+  }
+  fail("[model] there is no such frame");
 }
 
 /// The model before training: its head has no parameters yet.
@@ -127,21 +140,29 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
                        model.head_parameters);
 }
 
-/// A model in the frame `axis`.
-Model make_axis_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint) {
+/// A model in a frame other than `camera`.
+Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint) {
   const Config& config = run.config;
-  const RidgeHead head =
-      fit_ridge_head(run.dataset, features.frames(config.sv_net.depth), scores, run.training_categories(),
-                     config.sv_net.target, config.sv_net.depth, run.seed(), config.sv_net.head);
-  const RidgeFit& ridge = head.fit.ridge;
-  run.say(joined("SV-net: ridge regression of ", ridge.weights.size(), " inputs, penalty ", ridge.penalty,
-                 ", explains ", 100 * (1 - ridge.error), " % of the variance within poses of categories left out"));
-  if (!head.fit.tried.empty())
-    run.say("SV-net: Spearman within poses of categories left out: " + tried_text(head.fit.tried));
-  if (!head.fit.networks.empty())
-    run.say(joined("SV-net: ", head.fit.networks.size(), " networks",
-                   head.fit.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
-  Model model = model_of(head);
+  const Config::SvNet& sv_net = config.sv_net;
+  Model model;
+  model.frame = sv_net.frame;
+  model.depth = sv_net.depth;
+  if (frame::has_turns(sv_net.frame)) {
+    const PrincipalComponents& components =
+        features.turned_components(sv_net.backbone, sv_net.layer, run.training_categories());
+    set_turned_backbone(model, features.backbone(sv_net.backbone, sv_net.layer).backbone, components);
+  }
+  const HeadFit head =
+      fit_frame_head(run.dataset, top_features(run, features, model), scores, run.training_categories(), sv_net.target,
+                     frame_spec(model), run.seed(), sv_net.head)
+          .fit;
+  run.say(joined("SV-net: ridge regression of ", head.ridge.weights.size(), " inputs, penalty ", head.ridge.penalty,
+                 ", explains ", 100 * (1 - head.ridge.error), " % of the variance within poses of categories left out"));
+  if (!head.tried.empty()) run.say("SV-net: Spearman within poses of categories left out: " + tried_text(head.tried));
+  if (!head.networks.empty())
+    run.say(joined("SV-net: ", head.networks.size(), " networks",
+                   head.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
+  set_head(model, head);
   model.input_fingerprint = fingerprint;
   return model;
 }
@@ -149,7 +170,7 @@ Model make_axis_model(const Run& run, FeaturesStage& features, const Scores& sco
 Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint,
                  Resume resume) {
   const Config& config = run.config;
-  if (config.sv_net.frame == FrameChoice::axis) return make_axis_model(run, features, scores, fingerprint);
+  if (config.sv_net.frame != FrameChoice::camera) return make_frame_model(run, features, scores, fingerprint);
   const Backbone& backbone = features.backbone(config.sv_net.backbone, config.sv_net.layer).backbone;
   Model model = untrained_model(config, backbone, fingerprint);
 

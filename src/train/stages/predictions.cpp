@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "predict/score_head.h"
+#include "train/stages/top_features.h"
 #include "train/view_inputs.h"
 
 namespace svnet::train {
@@ -30,15 +31,14 @@ std::vector<view::CameraPose> candidates(const ViewDataset& dataset, Index pose)
   return poses;
 }
 
-/// In the frame `axis`.
-std::vector<double> axis_scores(const Run& run, FeaturesStage& features, const Model& model) {
+/// In a frame other than `camera`.
+std::vector<double> frame_scores(const Run& run, FeaturesStage& features, const Model& model) {
   const predict::ScoreHead head(model, run.inference);
-  const std::vector<frame::TopFrame>& frames = features.frames(model.depth);
+  const std::vector<float> of_poses = top_features(run, features, model);
   std::vector<double> predicted;
-  for (std::size_t pose = 0; pose < frames.size(); ++pose) {
-    const frame::TopFrameValues values = frame::to_values(frames[pose]);
+  for (std::size_t pose = 0; pose < run.dataset.poses.size(); ++pose) {
     Tensor top = Tensor::empty({1, head.feature_count()});
-    std::copy(values.begin(), values.end(), top.data<float>());
+    std::copy_n(of_poses.data() + static_cast<Index>(pose) * top.size(), top.size(), top.data<float>());
     const std::vector<float> scores = head.scores(top, candidates(run.dataset, static_cast<Index>(pose)));
     predicted.insert(predicted.end(), scores.begin(), scores.end());
   }
@@ -73,13 +73,8 @@ std::vector<double> camera_scores(const Run& run, FeaturesStage& features_stage,
 }  // namespace
 
 std::vector<double> predicted_scores(const Run& run, FeaturesStage& features, const Model& model) {
-  switch (model.frame) {
-    case frame::FrameChoice::camera:
-      return camera_scores(run, features, model);
-    case frame::FrameChoice::axis:
-      return axis_scores(run, features, model);
-  }
-  fail("[predictions] the model has an unknown frame");
+  return model.frame == frame::FrameChoice::camera ? camera_scores(run, features, model)
+                                                   : frame_scores(run, features, model);
 }
 
 }  // namespace svnet::train

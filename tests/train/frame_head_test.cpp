@@ -1,4 +1,4 @@
-#include "train/ridge_head.h"
+#include "train/frame_head.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -71,12 +71,15 @@ struct Bars {
     return levels[pose] + 0.1 * low - 0.1 * low * std::cos(2 * along);
   }
 
-  std::vector<frame::TopFrame> frames(DepthChoice depth = DepthChoice::none) const {
-    std::vector<frame::TopFrame> frames;
-    for (std::size_t p = 0; p < top_images.size(); ++p)
-      frames.push_back(frame::from_values(
-          frame::to_values(frame::top_frame(top_images[p], depth == DepthChoice::none ? nullptr : &depths[p]))));
-    return frames;
+  /// The features of the frame `axis` of every pose.
+  std::vector<float> frames(DepthChoice depth = DepthChoice::none) const {
+    std::vector<float> features;
+    for (std::size_t p = 0; p < top_images.size(); ++p) {
+      const frame::TopFrameValues values =
+          frame::to_values(frame::top_frame(top_images[p], depth == DepthChoice::none ? nullptr : &depths[p]));
+      features.insert(features.end(), values.begin(), values.end());
+    }
+    return features;
   }
 
   std::vector<double> levels;
@@ -100,8 +103,8 @@ std::vector<bool> others() {
   return categories;
 }
 
-RidgeHead fitted(const Scores& scores, DepthChoice depth = DepthChoice::none, Target target = Target::individual) {
-  return fit_ridge_head(bars().dataset, bars().frames(depth), scores, training(), target, depth, 3);
+FrameHead fitted(const Scores& scores, DepthChoice depth = DepthChoice::none, Target target = Target::individual) {
+  return fit_frame_head(bars().dataset, bars().frames(depth), scores, training(), target, {.depth = depth}, 3);
 }
 
 }  // namespace
@@ -111,8 +114,8 @@ TEST_CASE("a ridge head finds a rule in the object's frame that holds for other 
   Scores scores = bars().scores;
   for (std::size_t v = 0; v < scores.individual.size(); ++v)
     if (others()[static_cast<std::size_t>(bars().dataset.views[v].category)]) scores.individual[v] = std::nan("");
-  const RidgeHead head = fitted(scores, depth);
-  CHECK(head.depth == depth);
+  const FrameHead head = fitted(scores, depth);
+  CHECK(head.spec.depth == depth);
   CHECK(head.fit.ridge.error < 0.15);
   const auto predicted = predictions(head, bars().dataset, bars().frames(depth));
   const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
@@ -124,7 +127,7 @@ TEST_CASE("a ridge head finds a rule in the object's frame that holds for other 
 }
 
 TEST_CASE("a ridge head learns the target it is told to") {
-  const RidgeHead individual = fitted(bars().scores), global = fitted(bars().scores, DepthChoice::none, Target::global);
+  const FrameHead individual = fitted(bars().scores), global = fitted(bars().scores, DepthChoice::none, Target::global);
   CHECK(individual.fit.ridge.weights != global.fit.ridge.weights);
   Scores swapped = bars().scores;
   std::swap(swapped.individual, swapped.global);
@@ -133,7 +136,7 @@ TEST_CASE("a ridge head learns the target it is told to") {
 
 TEST_CASE("the model of a ridge head predicts what the head does, by its sigmoid") {
   const DepthChoice depth = GENERATE(DepthChoice::none, DepthChoice::heights);
-  const RidgeHead head = fitted(bars().scores, depth);
+  const FrameHead head = fitted(bars().scores, depth);
   const auto expected = predictions(head, bars().dataset, bars().frames(depth));
   const Model model = model_of(head);
   CHECK(model.input_fingerprint.empty());
@@ -196,16 +199,18 @@ TEST_CASE("a ridge head needs scores of this dataset, and two categories of them
   Scores scores = bars().scores;
   std::vector<bool> one(kCategories, false);
   one[2] = true;
-  CHECK_THROWS_AS(
-      fit_ridge_head(bars().dataset, bars().frames(), scores, one, Target::individual, DepthChoice::none, 3), Error);
+  CHECK_THROWS_AS(fit_frame_head(bars().dataset, bars().frames(), scores, one, Target::individual, {}, 3), Error);
+  CHECK_THROWS_WITH(
+      fit_frame_head(bars().dataset, std::vector<float>(15), scores, training(), Target::individual, {}, 3),
+      "[ridge] 15 features do not belong to 32 top views");
   scores.paths[5] = "another";
   CHECK_THROWS_WITH(fitted(scores), Catch::StartsWith("scores"));
 }
 
 TEST_CASE("networks learn the rule too, alone and averaged with the ridge regression, and the model scores as they do") {
   const HeadChoice choice = GENERATE(HeadChoice::network, HeadChoice::both, HeadChoice::best);
-  const RidgeHead head = fit_ridge_head(bars().dataset, bars().frames(), bars().scores, training(), Target::individual,
-                                        DepthChoice::none, 3, choice);
+  const FrameHead head = fit_frame_head(bars().dataset, bars().frames(), bars().scores, training(), Target::individual,
+                                        {}, 3, choice);
   const auto predicted = predictions(head, bars().dataset, bars().frames());
   const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
   CHECK(within.spearman > 0.8);
@@ -221,9 +226,9 @@ TEST_CASE("networks learn the rule too, alone and averaged with the ridge regres
 
   const predict::ScoreHead score_head(model_of(head));
   const Index pose = 2;
-  const frame::TopFrameValues values = frame::to_values(bars().frames()[static_cast<std::size_t>(pose)]);
+  const std::vector<float> frames = bars().frames();
   Tensor top = Tensor::empty({1, score_head.feature_count()});
-  std::copy(values.begin(), values.end(), top.data<float>());
+  std::copy_n(frames.data() + pose * score_head.feature_count(), score_head.feature_count(), top.data<float>());
   std::vector<view::CameraPose> poses;
   for (const View& view : bars().dataset.views_of(pose))
     poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
@@ -239,8 +244,8 @@ TEST_CASE("fitted networks have the same bits for any number of threads") {
   std::vector<std::vector<double>> fits;
   for (const int threads : {1, 2, 5}) {
     Parallel::shared().resize(threads);
-    const RidgeHead head = fit_ridge_head(bars().dataset, bars().frames(), bars().scores, training(),
-                                          Target::individual, DepthChoice::none, 3, HeadChoice::network);
+    const FrameHead head = fit_frame_head(bars().dataset, bars().frames(), bars().scores, training(),
+                                          Target::individual, {}, 3, HeadChoice::network);
     fits.push_back(predictions(head, bars().dataset, bars().frames()));
   }
   Parallel::shared().resize(threads_before);
