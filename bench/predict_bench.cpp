@@ -68,10 +68,13 @@ void turned_images(benchmark::State& state) {
 }
 
 const bool kRegistered = [] {
-  for (const auto& [name, function] : {std::pair{"camera", embed_camera}, std::pair{"turned", embed_turned}})
-    benchmark::RegisterBenchmark((std::string("embed/") + name + "/" + kBackbone).c_str(), function)
+  const auto add = [](const char* frame, void (*function)(benchmark::State&)) {
+    benchmark::RegisterBenchmark((std::string("embed/") + frame + "/" + kBackbone).c_str(), function)
         ->Unit(benchmark::kMillisecond)
         ->UseRealTime();
+  };
+  add("camera", embed_camera);
+  add("turned", embed_turned);
   return true;
 }();
 BENCHMARK(turned_images)->ArgName("side")->Arg(224)->Arg(1080)->Unit(benchmark::kMillisecond)->UseRealTime();

@@ -58,25 +58,31 @@ std::array<double, 4> keys_weights(double t) {
   return {0.5 * (-t + 2 * t2 - t3), 0.5 * (2 - 5 * t2 + 3 * t3), 0.5 * (t + 4 * t2 - 3 * t3), 0.5 * (t3 - t2)};
 }
 
-/// The colour at a point of the square, in pixels from the middle of the upper left one: at least -1/2.
-Colour interpolated(const Image& square, double y, double x) {
+/// The pixels of an image, one vector of four each: (height, width, 4). In f64, since the sums of an image and of its
+/// quarter turn, which are taken in other orders, must round to the same levels.
+constexpr Index kLanes = 4;
+std::vector<double> lanes_of(const Image& image) {
+  const Index pixels = image.height * image.width;
+  std::vector<double> lanes(static_cast<std::size_t>(pixels * kLanes));
+  for (Index i = 0; i < pixels; ++i)
+    for (Index c = 0; c < kChannels; ++c) lanes[i * kLanes + c] = image.rgb[i * kChannels + c];
+  return lanes;
+}
+
+/// The colour at a point of a square with these lanes, in pixels from the middle of the upper left one: at least -1/2.
+Colour interpolated(const std::vector<double>& lanes, Index side, double y, double x) {
   const Index row = static_cast<Index>(y + 1) - 1, column = static_cast<Index>(x + 1) - 1;  // rounded down
   const std::array<double, 4> down = keys_weights(y - static_cast<double>(row)),
                               across = keys_weights(x - static_cast<double>(column));
-  std::array<Index, 4> rows{}, offsets{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Index step = static_cast<Index>(i) - 1;
-    rows[i] = std::clamp<Index>(row + step, 0, square.height - 1);
-    offsets[i] = std::clamp<Index>(column + step, 0, square.width - 1) * kChannels;
-  }
-  std::array<double, 3> sums{};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint8_t* pixels = pixel(square, rows[i], 0);
-    for (std::size_t c = 0; c < 3; ++c)
-      sums[c] += down[i] * (across[0] * pixels[offsets[0] + static_cast<Index>(c)] +
-                            across[1] * pixels[offsets[1] + static_cast<Index>(c)] +
-                            across[2] * pixels[offsets[2] + static_cast<Index>(c)] +
-                            across[3] * pixels[offsets[3] + static_cast<Index>(c)]);
+  std::array<double, kLanes> sums{};
+  for (Index i = 0; i < 4; ++i) {
+    const double* line = lanes.data() + std::clamp<Index>(row + i - 1, 0, side - 1) * side * kLanes;
+    std::array<double, kLanes> of_row{};
+    for (Index j = 0; j < 4; ++j) {
+      const double* pixel = line + std::clamp<Index>(column + j - 1, 0, side - 1) * kLanes;
+      for (std::size_t c = 0; c < kLanes; ++c) of_row[c] += across[static_cast<std::size_t>(j)] * pixel[c];
+    }
+    for (std::size_t c = 0; c < kLanes; ++c) sums[c] += down[static_cast<std::size_t>(i)] * of_row[c];
   }
   Colour colour{};
   for (std::size_t c = 0; c < 3; ++c) colour[c] = static_cast<std::uint8_t>(std::clamp(sums[c] + 0.5, 0.0, 255.0));
@@ -89,16 +95,20 @@ Image quarter_turned_square(const Image& image, int quarters) {
   check_pixels(image);
   const Index side = std::min(image.height, image.width), end = side - 1;
   const Index top = (image.height - side) / 2, left = (image.width - side) / 2;
+  // Where the first pixel comes from, and the steps to those of the next row and column.
+  const Index width = image.width;
+  const Index corners[] = {0, end, end * width + end, end * width}, downs[] = {width, -1, -width, 1},
+              rights[] = {1, width, -1, -width};
+  const std::uint8_t* const first = pixel(image, top, left) + corners[quarters] * kChannels;
+  const Index down = downs[quarters] * kChannels, right = rights[quarters] * kChannels;
   Image square = empty_square(side);
-  for (Index i = 0; i < side; ++i)
-    for (Index j = 0; j < side; ++j) {
-      Index row = i, column = j;
-      for (int turn = 0; turn < quarters; ++turn) {
-        const Index above = row;
-        row = column;
-        column = end - above;
-      }
-      std::copy_n(pixel(image, top + row, left + column), kChannels, pixel(square, i, j));
+  std::uint8_t* to = square.rgb.data();
+  for (Index row = 0; row < side; ++row)
+    for (Index column = 0; column < side; ++column, to += kChannels) {
+      const std::uint8_t* from = first + row * down + column * right;
+      to[0] = from[0];
+      to[1] = from[1];
+      to[2] = from[2];
     }
   return square;
 }
@@ -114,6 +124,7 @@ Image turned_image(const Image& top_image, double theta_deg) {
   const Index side = square.width;
   const Colour fill = rim_colour(square);
   const double middle = static_cast<double>(side - 1) / 2, cosine = std::cos(rest_rad), sine = std::sin(rest_rad);
+  const std::vector<double> lanes = rest_rad == 0 ? std::vector<double>() : lanes_of(square);
   Image turned = empty_square(side);
   for (Index row = 0; row < side; ++row)
     for (Index column = 0; column < side; ++column) {
@@ -123,7 +134,7 @@ Image turned_image(const Image& top_image, double theta_deg) {
         if (rest_rad == 0)
           std::copy_n(pixel(square, row, column), kChannels, colour.begin());
         else
-          colour = interpolated(square, middle + (y * cosine + x * sine), middle + (x * cosine - y * sine));
+          colour = interpolated(lanes, side, middle + (y * cosine + x * sine), middle + (x * cosine - y * sine));
       }
       std::copy_n(colour.begin(), kChannels, pixel(turned, row, column));
     }
@@ -133,9 +144,15 @@ Image turned_image(const Image& top_image, double theta_deg) {
 Image mirrored(const Image& image) {
   check_pixels(image);
   Image result{image.height, image.width, std::vector<std::uint8_t>(image.rgb.size())};
-  for (Index row = 0; row < image.height; ++row)
-    for (Index column = 0; column < image.width; ++column)
-      std::copy_n(pixel(image, row, image.width - 1 - column), kChannels, pixel(result, row, column));
+  for (Index row = 0; row < image.height; ++row) {
+    const std::uint8_t* from = pixel(image, row, 0);
+    std::uint8_t* to = pixel(result, row, 0);
+    for (Index left = 0, right = (image.width - 1) * kChannels; right >= 0; left += kChannels, right -= kChannels) {
+      to[left] = from[right];
+      to[left + 1] = from[right + 1];
+      to[left + 2] = from[right + 2];
+    }
+  }
   return result;
 }
 

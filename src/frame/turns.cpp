@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "frame/pose_inputs.h"
 #include "frame/reduce.h"
 #include "frame/turned_image.h"
@@ -39,13 +40,16 @@ std::vector<Image> turned_images(const Image& top_image, Index side) {
   // A quarter turn later comes the image of the same kind, turned by a quarter: only the first ones are interpolated.
   constexpr int kOfAQuarter = kTurns / 4;
   const std::array<Turn, kTurns> all = turns();
-  std::vector<Image> first, images;
-  for (int i = 0; i < kOfAQuarter; ++i)
-    first.push_back(turned_image(square, all[static_cast<std::size_t>(i)].theta_deg));
-  for (int i = 0; i < kTurns; ++i) {
-    Image turned = quarter_turned_square(first[static_cast<std::size_t>(i % kOfAQuarter)], (4 - i / kOfAQuarter) % 4);
-    images.push_back(all[static_cast<std::size_t>(i)].is_mirrored ? mirrored(turned) : std::move(turned));
-  }
+  std::vector<Image> first(kOfAQuarter), images(kTurns);
+  Parallel::shared().for_chunks(kOfAQuarter, 1, [&](Index i, Index, int) {
+    first[static_cast<std::size_t>(i)] = turned_image(square, all[static_cast<std::size_t>(i)].theta_deg);
+  });
+  Parallel::shared().for_chunks(kTurns, 1, [&](Index i, Index, int) {
+    const int quarters = static_cast<int>(4 - i / kOfAQuarter) % 4;
+    Image turned = quarter_turned_square(first[static_cast<std::size_t>(i % kOfAQuarter)], quarters);
+    const auto at = static_cast<std::size_t>(i);
+    images[at] = all[at].is_mirrored ? mirrored(turned) : std::move(turned);
+  });
   return images;
 }
 

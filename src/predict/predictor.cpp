@@ -58,11 +58,19 @@ Tensor Predictor::embedding(const Image& top) const {
 
 Tensor Predictor::values_of_turns(const Image& top) const {
   const std::vector<Image> images = frame::turned_images(top, preprocessing_.height);
-  Tensor batch = Tensor::empty({frame::kTurns, preprocessing_.height, preprocessing_.width, 3});
-  Parallel::shared().for_chunks(frame::kTurns, 1, [&](Index turn, Index, int) {
-    prepare(preprocessing_, images[static_cast<std::size_t>(turn)], batch.data<float>() + turn * preprocessing_.size());
+  // A thread takes two turns through the whole network: it neither waits for others between layers nor shares its cache
+  // with a larger batch.
+  constexpr Index kAtOnce = 2;
+  const Index side = preprocessing_.height, components = element_count(backbone_->output_shape());
+  Tensor values = Tensor::empty({frame::kTurns, components});
+  Parallel::shared().for_chunks(frame::kTurns, kAtOnce, [&](Index begin, Index end, int) {
+    Tensor batch = Tensor::empty({end - begin, side, side, 3});
+    for (Index turn = begin; turn < end; ++turn)
+      prepare(preprocessing_, images[static_cast<std::size_t>(turn)],
+              batch.data<float>() + (turn - begin) * preprocessing_.size());
+    const Tensor part = backbone_->run({batch});
+    std::copy_n(part.data<float>(), part.size(), values.data<float>() + begin * components);
   });
-  const Tensor values = backbone_->run({batch});
   check_finite(values, "feature");
   return values;
 }
