@@ -56,10 +56,12 @@ void evaluation(benchmark::State& state) {
   const train::EvaluationOptions options{.problems = static_cast<std::uint64_t>(state.range(0))};
   for (auto _ : state)
     benchmark::DoNotOptimize(
-        evaluate(dataset,
-                 {{problems,
-                   {{"top", train::top_views(dataset)}, {"rand", {}}, {"opt_ind", train::best_views(dataset, scores)}}}},
-                 {{"a_ward", &first, ward}, {"a_kmeans", &first, kmeans}, {"b_ward", &second, ward}}, options, Parallel::shared(), {}, "")
+        evaluate(
+            dataset,
+            {{problems,
+              {{"top", train::top_views(dataset)}, {"rand", {}}, {"opt_ind", train::best_views(dataset, scores)}}}},
+            {{"a_ward", &first, ward}, {"a_kmeans", &first, kmeans}, {"b_ward", &second, ward}}, options,
+            Parallel::shared(), {}, "")
             .problems);
 }
 BENCHMARK(evaluation)->Arg(10000)->Unit(benchmark::kSecond)->UseRealTime()->Iterations(1);

@@ -24,14 +24,24 @@ bool each_problem_has_all(const ProblemValues& values, std::size_t count) {
   return true;
 }
 
+/// The expected product of how often each of `size` different ones of `count` categories is drawn in `count` draws.
+/// Without a division by it, problems of few categories would weigh more than those of many.
+double expected_weight(std::size_t size, std::size_t count) {
+  double weight = 1;
+  for (std::size_t i = 0; i < size; ++i) weight *= static_cast<double>(count - i) / static_cast<double>(count);
+  return weight;
+}
+
 /// The weighted means of the columns in one replicate, or NaN if every weight is 0.
-void replicate_means(const ProblemValues& values, const std::vector<double>& drawn, std::span<double> means) {
+void replicate_means(const ProblemValues& values, const std::vector<double>& drawn, std::size_t categories,
+                     std::span<double> means) {
   std::fill(means.begin(), means.end(), 0.0);
   double sum = 0;
   for (Index p = 0; p < values.problems(); ++p) {
     double weight = 1;
     for (const std::int32_t category : values.categories_of(p)) weight *= drawn[static_cast<std::size_t>(category)];
     if (weight == 0) continue;
+    weight /= expected_weight(values.categories_of(p).size(), categories);
     sum += weight;
     const double* row = values.values.data() + p * values.columns;
     for (std::size_t c = 0; c < means.size(); ++c) means[c] += weight * row[c];
@@ -65,7 +75,8 @@ std::vector<Interval> category_intervals(const ProblemValues& values, const Boot
       std::fill(drawn.begin(), drawn.end(), 0.0);
       for (std::size_t i = 0; i < categories.size(); ++i)
         drawn[static_cast<std::size_t>(categories[random.below(static_cast<std::uint32_t>(categories.size()))])] += 1;
-      replicate_means(values, drawn, std::span(means).subspan(static_cast<std::size_t>(replicate) * columns, columns));
+      replicate_means(values, drawn, categories.size(),
+                      std::span(means).subspan(static_cast<std::size_t>(replicate) * columns, columns));
     }
   });
 

@@ -34,10 +34,10 @@ struct BootstrapOptions {
 
 /// How far the means of the columns would move with other categories of the same kind (Efron and Tibshirani, "An
 /// Introduction to the Bootstrap", 1993, percentile intervals). A replicate draws as many categories as the problems
-/// have, with replacement; a problem weighs the product of how often each of its categories was drawn. Replicates in
-/// which every weight is 0 do not count. Returns an interval per column; NaN with fewer than 3 categories, and if every
-/// problem has all categories, since nothing then tells categories apart. The result has the same bits for any number
-/// of threads.
+/// have, with replacement; a problem weighs the product of how often each of its categories was drawn, divided by
+/// the product to be expected for as many categories. Replicates in which every weight is 0 do not count. Returns an
+/// interval per column; NaN with fewer than 3 categories, and if every problem has all categories, since nothing then
+/// tells categories apart. The result has the same bits for any number of threads.
 std::vector<Interval> category_intervals(const ProblemValues& values, const BootstrapOptions& options,
                                          Parallel& parallel);
 

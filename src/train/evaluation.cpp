@@ -106,8 +106,8 @@ EvaluationTable table_of(const ProblemValues& values, const std::vector<Evaluati
   return table;
 }
 
-/// Solves the problems with the numbers `first` to `last` - 1, which are of one set, and puts their values and categories
-/// into `values`.
+/// Solves the problems with the numbers `first` to `last` - 1, which are of one set, and puts their values and
+/// categories into `values`.
 void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vector<EvaluationPipeline>& pipelines,
            Index first, Index last, const EvaluationOptions& options, Parallel& parallel, Progress& progress,
            ProblemValues& values) {
@@ -147,8 +147,8 @@ void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vect
           for (std::size_t p = 0; p < pipelines.size(); ++p) {
             const auto metrics = metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
             std::copy(metrics.begin(), metrics.end(),
-                      values.values.begin() + static_cast<std::ptrdiff_t>(problem_number * stride +
-                                                                          (p * selectors + s) * kMetrics.size()));
+                      values.values.begin() +
+                          static_cast<std::ptrdiff_t>(problem_number * stride + (p * selectors + s) * kMetrics.size()));
           }
         }
       }

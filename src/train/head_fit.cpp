@@ -26,8 +26,7 @@ double ridge_share(HeadChoice kind) {
 
 std::vector<Parameters> fit_networks(const RidgeExamples& examples, std::uint64_t seed) {
   std::vector<Parameters> networks;
-  for (std::size_t i = 0; i < kNetworks; ++i)
-    networks.push_back(fit_network(examples, {.seed = seed * kNetworks + i}));
+  for (std::size_t i = 0; i < kNetworks; ++i) networks.push_back(fit_network(examples, {.seed = seed * kNetworks + i}));
   return networks;
 }
 
@@ -131,7 +130,8 @@ std::string tried_text(const std::vector<TriedHead>& tried) {
 }
 
 void set_head(Model& model, const HeadFit& head) {
-  const auto inputs = static_cast<Index>(head.ridge.weights.size()), networks = static_cast<Index>(head.networks.size());
+  const auto inputs = static_cast<Index>(head.ridge.weights.size()),
+             networks = static_cast<Index>(head.networks.size());
   // With the linear part alone the factor is in its kernel, otherwise in the last layer.
   const double factor = networks == 0 ? models::kLogitPerScore : 1;
   Tensor kernel = Tensor::empty({inputs, 1}), bias = Tensor::empty({1});

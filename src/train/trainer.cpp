@@ -19,7 +19,8 @@ using io::Checkpoint;
 
 namespace {
 
-constexpr const char* kMetricsHeader = "epoch,step,learning_rate,loss,validation_loss,validation_spearman,validation_regret\n";
+constexpr const char* kMetricsHeader =
+    "epoch,step,learning_rate,loss,validation_loss,validation_spearman,validation_regret\n";
 
 /// The sum of all parameters, with their bits read as integers. Different sums mean different parameters.
 std::uint64_t sum_of_bits(const Parameters& parameters) {
@@ -141,9 +142,7 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
   const Index per_epoch = steps_per_epoch();
   Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch);
   Index done = 0;
-  const auto patient = [&] {
-    return options_.patience == 0 || state.epoch - state.best_epoch < options_.patience;
-  };
+  const auto patient = [&] { return options_.patience == 0 || state.epoch - state.best_epoch < options_.patience; };
   while (state.epoch < options_.epochs && patient()) {
     const auto order = epoch_order(training_.size(), options_.seed, state.epoch);
     const double rate = options_.schedule.at(optimizer->steps);
@@ -172,12 +171,14 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
       state.best_epoch = state.epoch;
     }
     if (messages.line)
-      messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss, validation_text(validation), best ? ", best so far" : ""));
+      messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss, validation_text(validation),
+                           best ? ", best so far" : ""));
     after_epoch(state, best);
     progress.update(done);
   }
   if (state.epoch < options_.epochs && messages.line)
-    messages.line(joined("training stops: no better epoch than ", state.best_epoch, " in ", options_.patience, " more"));
+    messages.line(
+        joined("training stops: no better epoch than ", state.best_epoch, " in ", options_.patience, " more"));
 }
 
 }  // namespace svnet::train

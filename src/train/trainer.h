@@ -23,9 +23,10 @@ struct TrainerOptions {
   std::string input_fingerprint;  // copied into checkpoints
 };
 
-/// Trains a graph with the inputs (top view, angles) and one score as output, by mean squared error with the weights of the targets. All processes of a
-/// communicator do the same steps with all parameters, and share the products of dense layers. Sums over a batch are
-/// taken in the order of its examples, so the bits do not depend on the number of processes.
+/// Trains a graph with the inputs (top view, angles) and one score as output, by mean squared error with the weights of
+/// the targets. All processes of a communicator do the same steps with all parameters, and share the products of dense
+/// layers. Sums over a batch are taken in the order of its examples, so the bits do not depend on the number of
+/// processes.
 class Trainer {
  public:
   /// On the validation set.

@@ -7,8 +7,8 @@
 namespace svnet::train {
 namespace {
 
-constexpr double WithinPose::* kFigures[] = {&WithinPose::spearman, &WithinPose::regret, &WithinPose::better_than_top,
-                                             &WithinPose::better_than_rand};
+constexpr double WithinPose::*kFigures[] = {&WithinPose::spearman, &WithinPose::regret, &WithinPose::better_than_top,
+                                            &WithinPose::better_than_rand};
 
 /// Ranks from 0 on; equal values share the mean of their ranks.
 std::vector<double> ranks(std::span<const double> values) {
@@ -40,8 +40,8 @@ double rank_correlation(std::span<const double> a, std::span<const double> b) {
 WithinPose within_one_pose(std::span<const double> predicted, std::span<const double> scores,
                            std::optional<std::size_t> top) {
   if (scores.size() < 3) return mean_of({});
-  const double chosen = scores[static_cast<std::size_t>(std::max_element(predicted.begin(), predicted.end()) -
-                                                        predicted.begin())];
+  const double chosen =
+      scores[static_cast<std::size_t>(std::max_element(predicted.begin(), predicted.end()) - predicted.begin())];
   const double mean = std::accumulate(scores.begin(), scores.end(), 0.0) / static_cast<double>(scores.size());
   return {.poses = 1,
           .spearman = rank_correlation(predicted, scores),

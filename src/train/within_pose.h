@@ -21,8 +21,8 @@ struct WithinPose {
 WithinPose within_pose(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
                        const std::vector<bool>& categories);
 
-/// The same of one pose, with the predictions and scores of its views. `top` is the top view among them, nullopt: it has
-/// no score, and no view is better.
+/// The same of one pose, with the predictions and scores of its views. `top` is the top view among them, nullopt: it
+/// has no score, and no view is better.
 WithinPose within_one_pose(std::span<const double> predicted, std::span<const double> scores,
                            std::optional<std::size_t> top);
 

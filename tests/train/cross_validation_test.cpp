@@ -36,6 +36,7 @@ Config bar_config(const fs::path& data) {
   Config config = small_config(data);
   config.dataset.held_out = {};
   config.scores.problems = 600;
+  config.scores.max_categories = 4;  // of six, so that problems tell categories apart
   config.sv_net.frame = frame::FrameChoice::axis;
   config.evaluation.problems = 200;
   config.evaluation.pipelines = {"tiny_xception_ward", "tiny_xception_kmeans"};

@@ -202,15 +202,16 @@ TEST_CASE("a ridge head needs scores of this dataset, and two categories of them
   CHECK_THROWS_AS(fit_frame_head(bars().dataset, bars().frames(), scores, one, Target::individual, {}, 3), Error);
   CHECK_THROWS_WITH(
       fit_frame_head(bars().dataset, std::vector<float>(15), scores, training(), Target::individual, {}, 3),
-      "[ridge] 15 features do not belong to 32 top views");
+      "[head] 15 features do not belong to 32 top views");
   scores.paths[5] = "another";
   CHECK_THROWS_WITH(fitted(scores), Catch::StartsWith("scores"));
 }
 
-TEST_CASE("networks learn the rule too, alone and averaged with the ridge regression, and the model scores as they do") {
+TEST_CASE(
+    "networks learn the rule too, alone and averaged with the ridge regression, and the model scores as they do") {
   const HeadChoice choice = GENERATE(HeadChoice::network, HeadChoice::both, HeadChoice::best);
-  const FrameHead head = fit_frame_head(bars().dataset, bars().frames(), bars().scores, training(), Target::individual,
-                                        {}, 3, choice);
+  const FrameHead head =
+      fit_frame_head(bars().dataset, bars().frames(), bars().scores, training(), Target::individual, {}, 3, choice);
   const auto predicted = predictions(head, bars().dataset, bars().frames());
   const WithinPose within = within_pose(bars().dataset, predicted, bars().scores.individual, others());
   CHECK(within.spearman > 0.8);
@@ -235,8 +236,7 @@ TEST_CASE("networks learn the rule too, alone and averaged with the ridge regres
   const std::vector<float> scores = score_head.scores(top, poses);
   const auto first = static_cast<std::size_t>(bars().dataset.poses[static_cast<std::size_t>(pose)].first_view);
   for (std::size_t i = 0; i < scores.size(); ++i)
-    CHECK(scores[i] ==
-          Approx(1 / (1 + std::exp(-models::kLogitPerScore * predicted[first + i]))).margin(1e-5));
+    CHECK(scores[i] == Approx(1 / (1 + std::exp(-models::kLogitPerScore * predicted[first + i]))).margin(1e-5));
 }
 
 TEST_CASE("fitted networks have the same bits for any number of threads") {

@@ -50,16 +50,15 @@ FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& t
   const Scores training_scores = scores_stage(fold, features);
   const Model model = model_stage(fold, features, training_scores);
   FoldChoices choices{.predicted = predicted_scores(fold, features, model), .selectors = {}};
-  const SelectorInputs inputs{.dataset = fold.dataset,
-                              .scores =
-                                  [&] {
-                                    return ViewScores{true_scores.individual, true_scores.global};
-                                  },
-                              .predicted = choices.predicted,
-                              .training_scores = training_scores,
-                              .frames = [&]() -> const std::vector<frame::TopFrame>& {
-                                return features.frames(fold.config.sv_net.depth);
-                              }};
+  const SelectorInputs inputs{
+      .dataset = fold.dataset,
+      .scores =
+          [&] {
+            return ViewScores{true_scores.individual, true_scores.global};
+          },
+      .predicted = choices.predicted,
+      .training_scores = training_scores,
+      .frames = [&]() -> const std::vector<frame::TopFrame>& { return features.frames(fold.config.sv_net.depth); }};
   for (const SelectorKind* kind : kinds) choices.selectors.push_back({kind->name, kind->view(inputs)});
   return choices;
 }
@@ -161,8 +160,7 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
     else
       take_held_out(fold, choices.selectors, of_all_folds);
   }
-  if (problems == FoldProblems::all_categories)
-    sets.push_back({problems_of(run, every_category(run)), of_all_folds});
+  if (problems == FoldProblems::all_categories) sets.push_back({problems_of(run, every_category(run)), of_all_folds});
   result.within_pose = mean_of(within_poses);
   result.choices = std::move(of_all_folds);
 

@@ -25,8 +25,8 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
   const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
   const auto table = [&](const std::vector<bool>& excluded, const std::vector<Selector>& selectors,
                          const std::string& task) {
-    return evaluate(run.dataset, {{clustering_problems(run.dataset, excluded, run.config.scores), selectors}}, pipelines,
-                    options, Parallel::shared(), run.messages, task);
+    return evaluate(run.dataset, {{clustering_problems(run.dataset, excluded, run.config.scores), selectors}},
+                    pipelines, options, Parallel::shared(), run.messages, task);
   };
 
   const auto frames = [&]() -> const std::vector<frame::TopFrame>& {

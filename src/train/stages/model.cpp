@@ -157,7 +157,8 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
                      frame_spec(model), run.seed(), sv_net.head)
           .fit;
   run.say(joined("SV-net: ridge regression of ", head.ridge.weights.size(), " inputs, penalty ", head.ridge.penalty,
-                 ", explains ", 100 * (1 - head.ridge.error), " % of the variance within poses of categories left out"));
+                 ", explains ", 100 * (1 - head.ridge.error),
+                 " % of the variance within poses of categories left out"));
   if (!head.tried.empty()) run.say("SV-net: Spearman within poses of categories left out: " + tried_text(head.tried));
   if (!head.networks.empty())
     run.say(joined("SV-net: ", head.networks.size(), " networks",
