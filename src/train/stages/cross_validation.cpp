@@ -20,7 +20,7 @@ namespace svnet::train {
 namespace {
 
 /// The selectors of the table, in this order, if the configuration names none.
-const std::vector<std::string> kSelectors{"top", "rand", "broadside", "phi_map", "svnet", "opt_glob", "opt_ind"};
+const std::vector<std::string> kSelectorsOfTable{"top", "rand", "broadside", "phi_map", "svnet", "opt_glob", "opt_ind"};
 
 /// The run with the categories of a fold held out, in a folder of its own.
 Run run_of_fold(const Run& run, const Fold& fold, std::size_t number) {
@@ -142,7 +142,7 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   check(run.config.dataset.held_out.empty(), "[folds] the configuration holds categories out of every fold");
   const Scores scores = scores_stage(with_uniform_views(run), features);
   const auto& target = target_scores(scores, run.config.sv_net.target);
-  const auto& named = run.config.evaluation.selectors.empty() ? kSelectors : run.config.evaluation.selectors;
+  const auto& named = run.config.evaluation.selectors.empty() ? kSelectorsOfTable : run.config.evaluation.selectors;
   const auto kinds = selectors_of_table(named, Split::held_out);
 
   CrossValidation result;
