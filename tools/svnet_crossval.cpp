@@ -3,6 +3,7 @@
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "train/config/config_file.h"
+#include "train/evaluation_text.h"
 #include "train/run_folder.h"
 #include "train/stages/cross_validation.h"
 #include "train/stages/cross_validation_text.h"
@@ -104,6 +105,8 @@ void cross_validate(const Arguments& arguments, Console& console) {
     }
   }
   io::write_atomically(arguments.output / "crossval.json", cross_validation_json(validations));
+  io::write_atomically(arguments.output / "evaluation.json",
+                       train::tables_json({{"held_out", validations.front().result.table}}));
   if (const auto sheet = train::cross_validation_sheet(base, validations.front().result))
     console.result("Views of some objects: " + sheet->string());
   console.result((arguments.output / "crossval.json").string());

@@ -27,7 +27,7 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
         features.size(), " features do not belong to ", dataset.poses.size(), " top views");
   const std::vector<double>& targets = target_scores(scores, target);
   std::vector<double> standard_errors;
-  RidgeExamples examples{.inputs = frame::input_count(spec)};
+  PoseExamples examples{.inputs = frame::input_count(spec)};
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
     if (!categories[static_cast<std::size_t>(view.category)] || !std::isfinite(targets[i])) continue;
@@ -47,7 +47,7 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
 }
 
 std::vector<double> predictions(const FrameHead& head, const ViewDataset& dataset, std::span<const float> features) {
-  RidgeExamples views{.inputs = frame::input_count(head.spec)};
+  PoseExamples views{.inputs = frame::input_count(head.spec)};
   for (const View& view : dataset.views) {
     const std::vector<double> inputs = inputs_of(view, features, head.spec);
     views.x.insert(views.x.end(), inputs.begin(), inputs.end());

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "train/pose_examples.h"
 
 namespace svnet::train {
 namespace {
@@ -24,20 +25,20 @@ double ridge_share(HeadChoice kind) {
   fail("[head] 'best' is not a kind of head");
 }
 
-std::vector<Parameters> fit_networks(const RidgeExamples& examples, std::uint64_t seed) {
+std::vector<Parameters> fit_networks(const PoseExamples& examples, std::uint64_t seed) {
   std::vector<Parameters> networks;
   for (std::size_t i = 0; i < kNetworks; ++i) networks.push_back(fit_network(examples, {.seed = seed * kNetworks + i}));
   return networks;
 }
 
-std::vector<double> ridge_predictions(const RidgeFit& fit, const RidgeExamples& examples) {
+std::vector<double> ridge_predictions(const RidgeFit& fit, const PoseExamples& examples) {
   const auto inputs = static_cast<std::size_t>(examples.inputs);
   std::vector<double> predicted(examples.x.size() / inputs, fit.bias);
   for (std::size_t i = 0; i < examples.x.size(); ++i) predicted[i / inputs] += fit.weights[i % inputs] * examples.x[i];
   return predicted;
 }
 
-std::vector<double> mean_predictions(const std::vector<Parameters>& networks, const RidgeExamples& examples) {
+std::vector<double> mean_predictions(const std::vector<Parameters>& networks, const PoseExamples& examples) {
   std::vector<double> mean(examples.x.size() / static_cast<std::size_t>(examples.inputs));
   for (const Parameters& network : networks) {
     const std::vector<double> predicted = network_predictions(network, examples, {});
@@ -53,9 +54,9 @@ std::vector<double> mixture(const std::vector<double>& ridge, const std::vector<
 }
 
 /// The examples of the categories in `fold`, or of all others.
-RidgeExamples part_of(const RidgeExamples& e, const std::map<std::int32_t, std::size_t>& folds, std::size_t fold,
-                      bool inside) {
-  RidgeExamples part{.inputs = e.inputs};
+PoseExamples part_of(const PoseExamples& e, const std::map<std::int32_t, std::size_t>& folds, std::size_t fold,
+                     bool inside) {
+  PoseExamples part{.inputs = e.inputs};
   for (std::size_t i = 0; i < e.y.size(); ++i) {
     if ((folds.at(e.category[i]) == fold) != inside) continue;
     const auto row = e.x.begin() + static_cast<std::ptrdiff_t>(i) * e.inputs;
@@ -68,22 +69,20 @@ RidgeExamples part_of(const RidgeExamples& e, const std::map<std::int32_t, std::
   return part;
 }
 
-WithinPose within_poses(const RidgeExamples& e, const std::vector<double>& predicted) {
+WithinPose within_poses(const PoseExamples& e, const std::vector<double>& predicted) {
   std::vector<WithinPose> poses;
-  for (std::size_t begin = 0, end; begin < e.y.size(); begin = end) {
-    for (end = begin; end < e.y.size() && e.pose[end] == e.pose[begin];) ++end;
+  for (const auto& [begin, end] : pose_ranges(e.pose))
     poses.push_back(within_one_pose(std::span(predicted).subspan(begin, end - begin),
                                     std::span(e.y).subspan(begin, end - begin), std::nullopt));
-  }
   return mean_of(poses);
 }
 
-std::vector<TriedHead> try_heads(const RidgeExamples& examples, const RidgeOptions& options) {
+std::vector<TriedHead> try_heads(const PoseExamples& examples, const RidgeOptions& options) {
   const auto folds = folds_of_categories(examples, options.seed);
   std::vector<TriedHead> tried{{HeadChoice::ridge, {}}, {HeadChoice::network, {}}, {HeadChoice::both, {}}};
   std::vector<std::vector<WithinPose>> parts(tried.size());
   for (std::size_t fold = 0; fold < std::min(kRidgeFolds, folds.size()); ++fold) {
-    const RidgeExamples rest = part_of(examples, folds, fold, false), left_out = part_of(examples, folds, fold, true);
+    const PoseExamples rest = part_of(examples, folds, fold, false), left_out = part_of(examples, folds, fold, true);
     const std::vector<double> ridge = ridge_predictions(fit_ridge(rest, options), left_out),
                               networks = mean_predictions(fit_networks(rest, options.seed), left_out);
     for (std::size_t i = 0; i < tried.size(); ++i)
@@ -102,7 +101,7 @@ HeadChoice best_of(const std::vector<TriedHead>& tried) {
 
 }  // namespace
 
-HeadFit fit_head(const RidgeExamples& examples, const RidgeOptions& options, HeadChoice choice) {
+HeadFit fit_head(const PoseExamples& examples, const RidgeOptions& options, HeadChoice choice) {
   HeadFit head{.ridge = fit_ridge(examples, options)};
   // A fold needs two other categories to fit to.
   const bool can_try = folds_of_categories(examples, options.seed).size() >= 3;
@@ -113,7 +112,7 @@ HeadFit fit_head(const RidgeExamples& examples, const RidgeOptions& options, Hea
   return head;
 }
 
-std::vector<double> predictions(const HeadFit& head, const RidgeExamples& examples) {
+std::vector<double> predictions(const HeadFit& head, const PoseExamples& examples) {
   const std::vector<double> ridge = ridge_predictions(head.ridge, examples);
   if (head.networks.empty()) return ridge;
   return mixture(ridge, mean_predictions(head.networks, examples), head.ridge_share);

@@ -30,10 +30,10 @@ inline constexpr std::size_t kNetworks = 4;
 /// Fits a head of a kind. With HeadChoice::best, each kind predicts the examples of the categories of each fold
 /// (folds_of_categories) after a fit to the others, and the one with the highest mean of Spearman's rank correlation
 /// within poses is fitted to all. Throws Error as fit_ridge does.
-HeadFit fit_head(const RidgeExamples& examples, const RidgeOptions& options, HeadChoice choice);
+HeadFit fit_head(const PoseExamples& examples, const RidgeOptions& options, HeadChoice choice);
 
 /// The predicted centred score of each example. Only x and inputs of the examples count.
-std::vector<double> predictions(const HeadFit& head, const RidgeExamples& examples);
+std::vector<double> predictions(const HeadFit& head, const PoseExamples& examples);
 
 /// "ridge .255, network .244, both .261", Spearman's correlations.
 std::string tried_text(const std::vector<TriedHead>& tried);

@@ -10,7 +10,9 @@
 #include "nn/ops/losses.h"
 #include "nn/optim/schedule.h"
 #include "train/epoch_order.h"
+#include "train/pose_examples.h"
 #include "train/training_step.h"
+#include "train/view_targets.h"
 
 namespace svnet::train {
 namespace {
@@ -20,7 +22,7 @@ struct Standard {
   std::vector<double> mean, deviation;
 };
 
-Standard standard_of(const RidgeExamples& e) {
+Standard standard_of(const PoseExamples& e) {
   const auto inputs = static_cast<std::size_t>(e.inputs);
   const auto count = static_cast<double>(e.y.size());
   Standard s{std::vector<double>(inputs), std::vector<double>(inputs)};
@@ -33,25 +35,14 @@ Standard standard_of(const RidgeExamples& e) {
   return s;
 }
 
-/// The examples of each pose, as ranges of neighbours.
-std::vector<std::pair<std::size_t, std::size_t>> poses_of(const RidgeExamples& e) {
-  std::vector<std::pair<std::size_t, std::size_t>> poses;
-  for (std::size_t begin = 0, end; begin < e.y.size(); begin = end) {
-    for (end = begin; end < e.y.size() && e.pose[end] == e.pose[begin];) ++end;
-    poses.emplace_back(begin, end);
-  }
-  return poses;
-}
-
 /// A batch of whole poses. `centring` (B, B) times a column subtracts the weighted mean of each pose, and multiplies by
 /// the square root of the weight.
 struct Batch {
   Tensor inputs, centring, targets;
 };
 
-Batch batch_of(const RidgeExamples& e, const Standard& standard,
-               std::span<const std::pair<std::size_t, std::size_t>> poses, double y_deviation, double noise,
-               RandomStream& random) {
+Batch batch_of(const PoseExamples& e, const Standard& standard, std::span<const PoseRange> poses, double y_deviation,
+               double noise, RandomStream& random) {
   Index count = 0;
   for (const auto& [begin, end] : poses) count += static_cast<Index>(end - begin);
   Batch batch{Tensor::empty({count, e.inputs}), Tensor::zeros({count, count}), Tensor::zeros({count, 1})};
@@ -81,15 +72,10 @@ Batch batch_of(const RidgeExamples& e, const Standard& standard,
   return batch;
 }
 
-/// The standard deviation of y within poses.
-double deviation_within_poses(const RidgeExamples& e) {
-  double squares = 0;
-  for (const auto& [begin, end] : poses_of(e)) {
-    double mean = 0;
-    for (std::size_t i = begin; i < end; ++i) mean += e.y[i] / static_cast<double>(end - begin);
-    for (std::size_t i = begin; i < end; ++i) squares += (e.y[i] - mean) * (e.y[i] - mean);
-  }
-  return squares > 0 ? std::sqrt(squares / static_cast<double>(e.y.size())) : 1;
+/// The standard deviation of y within poses; 1 if it is 0.
+double deviation_within_poses(const PoseExamples& e) {
+  const double variance = variance_within_poses(e.y, e.pose);
+  return variance > 0 ? std::sqrt(variance) : 1;
 }
 
 /// Makes the network take inputs as they are and return y.
@@ -114,12 +100,12 @@ void take_units(Parameters& parameters, const Standard& standard, double y_devia
 
 }  // namespace
 
-Parameters fit_network(const RidgeExamples& examples, const NetworkFitOptions& options) {
+Parameters fit_network(const PoseExamples& examples, const NetworkFitOptions& options) {
   const Graph graph = models::pose_network(examples.inputs, options.network);
   Parameters parameters = initial_parameters(graph, options.seed);
   const Standard standard = standard_of(examples);
   const double y_deviation = deviation_within_poses(examples);
-  const auto poses = poses_of(examples);
+  const std::vector<PoseRange> poses = pose_ranges(examples.pose);
   const auto count = static_cast<Index>(poses.size());
   const Index steps = options.epochs * batch_count(options.poses_per_batch, count), warm_up = steps / 4;
   const Schedule schedule{
@@ -129,7 +115,7 @@ Parameters fit_network(const RidgeExamples& examples, const NetworkFitOptions& o
     const auto order = epoch_order(count, options.seed, epoch);
     for (Index begin = 0, end; begin < count; begin = end) {
       end = batch_end(begin, options.poses_per_batch, count);
-      std::vector<std::pair<std::size_t, std::size_t>> chosen;
+      std::vector<PoseRange> chosen;
       for (Index i = begin; i < end; ++i)
         chosen.push_back(poses[static_cast<std::size_t>(order[static_cast<std::size_t>(i)])]);
       RandomStream random(options.seed, Stream::augmentation, static_cast<std::uint64_t>(optimizer->steps));
@@ -148,7 +134,7 @@ Parameters fit_network(const RidgeExamples& examples, const NetworkFitOptions& o
   return parameters;
 }
 
-std::vector<double> network_predictions(const Parameters& parameters, const RidgeExamples& examples,
+std::vector<double> network_predictions(const Parameters& parameters, const PoseExamples& examples,
                                         const models::PoseNetworkOptions& options) {
   const Graph graph = models::pose_network(examples.inputs, options);
   const auto count = static_cast<Index>(examples.x.size()) / examples.inputs;

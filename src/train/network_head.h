@@ -18,10 +18,10 @@ struct NetworkFitOptions {
 /// prediction minus y after the weighted mean of its pose was subtracted from both, with the examples' weights. Inputs
 /// are standardised while training, and the first layer then takes them as they are. The mean prediction of the
 /// examples is 0. Throws Error as training_step does. Has the same bits for any number of threads.
-Parameters fit_network(const RidgeExamples& examples, const NetworkFitOptions& options);
+Parameters fit_network(const PoseExamples& examples, const NetworkFitOptions& options);
 
 /// The outputs of a network with these parameters, one per example. Only x and inputs of the examples count.
-std::vector<double> network_predictions(const Parameters& parameters, const RidgeExamples& examples,
+std::vector<double> network_predictions(const Parameters& parameters, const PoseExamples& examples,
                                         const models::PoseNetworkOptions& options);
 
 }  // namespace svnet::train

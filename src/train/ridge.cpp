@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/random.h"
+#include "train/pose_examples.h"
 
 namespace svnet::train {
 namespace {
@@ -30,17 +31,16 @@ struct Moments {
 };
 
 /// The moments of each category, with the weighted mean of each pose subtracted.
-std::map<std::int32_t, Moments> moments_by_category(const RidgeExamples& e) {
+std::map<std::int32_t, Moments> moments_by_category(const PoseExamples& e) {
   std::map<std::int32_t, Moments> moments;
   const auto inputs = static_cast<std::size_t>(e.inputs);
-  for (std::size_t begin = 0, end; begin < e.y.size(); begin = end) {
-    end = begin;
+  for (const auto& [begin, end] : pose_ranges(e.pose)) {
     Eigen::VectorXd mean_x = Eigen::VectorXd::Zero(e.inputs);
     double mean_y = 0, sum = 0;
-    for (; end < e.y.size() && e.pose[end] == e.pose[begin]; ++end) {
-      mean_x += e.weight[end] * Eigen::Map<const Eigen::VectorXd>(e.x.data() + end * inputs, e.inputs);
-      mean_y += e.weight[end] * e.y[end];
-      sum += e.weight[end];
+    for (std::size_t i = begin; i < end; ++i) {
+      mean_x += e.weight[i] * Eigen::Map<const Eigen::VectorXd>(e.x.data() + i * inputs, e.inputs);
+      mean_y += e.weight[i] * e.y[i];
+      sum += e.weight[i];
     }
     mean_x /= sum;
     mean_y /= sum;
@@ -77,7 +77,7 @@ Eigen::VectorXd solved(const Moments& m, const std::vector<bool>& small_penalty,
   return a.ldlt().solve(m.xy);
 }
 
-void check_examples(const RidgeExamples& e) {
+void check_examples(const PoseExamples& e) {
   const std::size_t count = e.y.size();
   check(e.x.size() == count * static_cast<std::size_t>(e.inputs) && e.weight.size() == count &&
             e.pose.size() == count && e.category.size() == count,
@@ -89,7 +89,7 @@ void check_examples(const RidgeExamples& e) {
 
 }  // namespace
 
-std::map<std::int32_t, std::size_t> folds_of_categories(const RidgeExamples& examples, std::uint64_t seed) {
+std::map<std::int32_t, std::size_t> folds_of_categories(const PoseExamples& examples, std::uint64_t seed) {
   const std::set<std::int32_t> distinct(examples.category.begin(), examples.category.end());
   std::vector<std::int32_t> order(distinct.begin(), distinct.end());
   RandomStream random(seed, Stream::cross_validation);
@@ -100,7 +100,7 @@ std::map<std::int32_t, std::size_t> folds_of_categories(const RidgeExamples& exa
   return folds;
 }
 
-RidgeFit fit_ridge(const RidgeExamples& examples, const RidgeOptions& options) {
+RidgeFit fit_ridge(const PoseExamples& examples, const RidgeOptions& options) {
   check_examples(examples);
   const auto by_category = moments_by_category(examples);
   check(by_category.size() >= 2, "[ridge] needs at least 2 categories with scores, there are ", by_category.size());

@@ -3,19 +3,9 @@
 #include <map>
 #include <vector>
 
-#include "base/index.h"
+#include "train/pose_examples.h"
 
 namespace svnet::train {
-
-/// Examples of a ridge regression: rows of inputs, what they should give, and where they belong.
-struct RidgeExamples {
-  Index inputs = 0;
-  std::vector<double> x{};               ///< (examples, inputs)
-  std::vector<double> y{};               ///< (examples)
-  std::vector<double> weight{};          ///< (examples) > 0: how much is known of y
-  std::vector<std::int32_t> pose{};      ///< (examples) examples of a pose are neighbours
-  std::vector<std::int32_t> category{};  ///< (examples)
-};
 
 struct RidgeOptions {
   /// Per input: whether it has the small penalty kSmallPenalty instead of the one that cross-validation chooses.
@@ -36,7 +26,7 @@ inline constexpr std::size_t kRidgeFolds = 5;
 
 /// The fold, from 0 on, of each category that occurs in the examples: about equally many in each of kRidgeFolds, or of
 /// as many as there are categories.
-std::map<std::int32_t, std::size_t> folds_of_categories(const RidgeExamples& examples, std::uint64_t seed);
+std::map<std::int32_t, std::size_t> folds_of_categories(const PoseExamples& examples, std::uint64_t seed);
 
 /// Penalties are relative to the mean of the inputs' squares, each kind of input to its own.
 inline constexpr double kSmallPenalty = 0.01;
@@ -46,6 +36,6 @@ inline constexpr double kPenalties[] = {1, 10, 100, 1000};
 /// from y (fixed effects of poses), so what does not depend on the camera does not matter. The penalty is the one of
 /// kPenalties with the smallest error in five folds over categories, or over as many as there are. Throws Error if
 /// there are fewer than 2 categories or a value is not finite. Has the same bits for any number of threads.
-RidgeFit fit_ridge(const RidgeExamples& examples, const RidgeOptions& options);
+RidgeFit fit_ridge(const PoseExamples& examples, const RidgeOptions& options);
 
 }  // namespace svnet::train

@@ -6,25 +6,10 @@
 
 #include "semantics/score_sums.h"
 #include "train/dataset_rows.h"
+#include "train/pose_examples.h"
 
 namespace svnet::train {
 namespace {
-
-/// The variance of the scores within their poses.
-double variance_within_poses(std::span<const double> scores, std::span<const std::int32_t> poses) {
-  double squares = 0, freedom = 0;
-  for (std::size_t begin = 0, end; begin < scores.size(); begin = end) {
-    double sum = 0, sum_of_squares = 0;
-    for (end = begin; end < scores.size() && poses[end] == poses[begin]; ++end) {
-      sum += scores[end];
-      sum_of_squares += scores[end] * scores[end];
-    }
-    const auto count = static_cast<double>(end - begin);
-    squares += sum_of_squares - sum * sum / count;
-    freedom += count - 1;
-  }
-  return freedom > 0 ? squares / freedom : 0;
-}
 
 /// Of the views that `targets` has weights and values for, in the dataset's order.
 void centre(const ViewDataset& dataset, const Scores& scores, ViewTargets& targets) {
@@ -54,6 +39,21 @@ void centre(const ViewDataset& dataset, const Scores& scores, ViewTargets& targe
 }
 
 }  // namespace
+
+double variance_within_poses(std::span<const double> scores, std::span<const std::int32_t> poses) {
+  double squares = 0, freedom = 0;
+  for (const auto& [begin, end] : pose_ranges(poses)) {
+    double sum = 0, sum_of_squares = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      sum += scores[i];
+      sum_of_squares += scores[i] * scores[i];
+    }
+    const auto count = static_cast<double>(end - begin);
+    squares += sum_of_squares - sum * sum / count;
+    freedom += count - 1;
+  }
+  return freedom > 0 ? squares / freedom : 0;
+}
 
 std::vector<double> score_weights(std::span<const double> scores, std::span<const double> standard_errors,
                                   std::span<const std::int32_t> poses) {

@@ -27,6 +27,10 @@ const std::vector<double>& target_scores(const AllScores& scores, Target target)
 ViewTargets view_targets(const ViewDataset& dataset, const Scores& scores, const std::vector<bool>& categories,
                          Target target, TargetScale scale);
 
+/// The variance of scores within their poses, with the degrees of freedom that the means leave; 0 if there are none.
+/// Scores of a pose are neighbours.
+double variance_within_poses(std::span<const double> scores, std::span<const std::int32_t> poses);
+
 /// s² / (s² + e²), where e is the standard error of a score, the largest one if it is not known, and s the standard
 /// deviation of scores within poses; 1 if s is 0. All spans have an element per score; scores of a pose are neighbours.
 std::vector<double> score_weights(std::span<const double> scores, std::span<const double> standard_errors,

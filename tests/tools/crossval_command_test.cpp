@@ -61,6 +61,9 @@ TEST_CASE("svnet-crossval prints its table, writes crossval.json, and a second r
     CHECK_THAT(text, Contains(part));
   const std::string json = file_contents(place.folder.path() / "run/crossval.json");
   CHECK(nlohmann::json::parse(json).at("folds").size() == 3);
+  const auto held_out = place.json("run/evaluation.json").at("tables").at("held_out").at("tiny_xception_ward");
+  CHECK(held_out.at("svnet").at("fm").at("mean") ==
+        nlohmann::json::parse(json).at("pipelines").at("tiny_xception_ward").at("svnet").at("fm").at("mean"));
   CHECK_THAT(text, Contains("run/views.png"));
   CHECK(std::filesystem::exists(place.folder.path() / "run/views.png"));
   CHECK(file_contents(place.folder.path() / "run/config.yaml").find("frame: axis") != std::string::npos);

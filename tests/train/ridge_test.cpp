@@ -13,8 +13,8 @@ namespace {
 double uniform(RandomStream& random) { return random.bits32() * 0x1p-31 - 1; }
 
 /// y = 2 x0 - x1 + an offset of the pose + noise; x2 is noise alone. 8 categories of 3 poses of 10 views.
-RidgeExamples examples(double noise) {
-  RidgeExamples e{.inputs = 3};
+PoseExamples examples(double noise) {
+  PoseExamples e{.inputs = 3};
   RandomStream random(5, Stream::weights);
   for (std::int32_t pose = 0; pose < 24; ++pose) {
     const double offset = 10 * uniform(random);
@@ -42,7 +42,7 @@ TEST_CASE("ridge regression finds the slopes within poses, whatever the offsets 
 }
 
 TEST_CASE("the mean prediction of the examples is 0") {
-  const RidgeExamples e = examples(0.5);
+  const PoseExamples e = examples(0.5);
   const RidgeFit fit = fit_ridge(e, {.small_penalty = {true, false, false}});
   double sum = 0;
   for (std::size_t i = 0; i < e.y.size(); ++i) {
@@ -53,7 +53,7 @@ TEST_CASE("the mean prediction of the examples is 0") {
 }
 
 TEST_CASE("inputs of noise alone get a large penalty") {
-  RidgeExamples e = examples(0);
+  PoseExamples e = examples(0);
   RandomStream random(9, Stream::weights);
   for (double& y : e.y) y = uniform(random);
   const RidgeFit fit = fit_ridge(e, {.small_penalty = {false, false, false}});
@@ -62,7 +62,7 @@ TEST_CASE("inputs of noise alone get a large penalty") {
 }
 
 TEST_CASE("an example of weight near 0 does not move the fit") {
-  RidgeExamples e = examples(0);
+  PoseExamples e = examples(0);
   e.y[7] += 100;
   e.weight[7] = 1e-12;
   const RidgeFit fit = fit_ridge(e, {.small_penalty = {true, true, false}});
@@ -70,7 +70,7 @@ TEST_CASE("an example of weight near 0 does not move the fit") {
 }
 
 TEST_CASE("a fit needs two categories and finite values") {
-  RidgeExamples e = examples(0);
+  PoseExamples e = examples(0);
   e.category.assign(e.category.size(), 0);
   CHECK_THROWS_WITH(fit_ridge(e, {.small_penalty = {false, false, false}}), Catch::Contains("at least 2 categories"));
   e = examples(0);
