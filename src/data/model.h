@@ -24,7 +24,7 @@ struct Model {
   /// Of the frame `camera` only. A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as
   /// taken; kSymmetries: all, and the preprocessed image must be square.
   int symmetries = 1;
-  Graph head;  // as sv_net() or, in frames other than `camera`, as linear_head() makes it
+  Graph head;  // as sv_net() or, in frames other than `camera`, as models/pose_head.h makes it
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the parameters depend on
 };

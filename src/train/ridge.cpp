@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/random.h"
 #include "train/pose_examples.h"
+#include "train/shuffled.h"
 
 namespace svnet::train {
 namespace {
@@ -91,10 +92,8 @@ void check_examples(const PoseExamples& e) {
 
 std::map<std::int32_t, std::size_t> folds_of_categories(const PoseExamples& examples, std::uint64_t seed) {
   const std::set<std::int32_t> distinct(examples.category.begin(), examples.category.end());
-  std::vector<std::int32_t> order(distinct.begin(), distinct.end());
   RandomStream random(seed, Stream::cross_validation);
-  for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  const auto order = shuffled(std::vector<std::int32_t>(distinct.begin(), distinct.end()), random);
   std::map<std::int32_t, std::size_t> folds;
   for (std::size_t i = 0; i < order.size(); ++i) folds[order[i]] = i % std::min(kRidgeFolds, order.size());
   return folds;

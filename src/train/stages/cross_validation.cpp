@@ -9,6 +9,7 @@
 #include "train/dataset_rows.h"
 #include "train/random_problems.h"
 #include "train/selectors.h"
+#include "train/shuffled.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/model.h"
 #include "train/stages/pipeline_distances.h"
@@ -87,10 +88,8 @@ std::vector<Fold> drawn_folds(const ViewDataset& dataset, Index count, std::uint
   const auto categories = static_cast<Index>(dataset.categories.size());
   check(count >= 2 && count <= categories && categories - (categories + count - 1) / count >= 2, "[folds] ", categories,
         " categories cannot be split into ", count, " folds that leave 2 categories or more to train on");
-  std::vector<std::string> order = dataset.categories;
   RandomStream random(seed, Stream::cross_validation);
-  for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[random.below(static_cast<std::uint32_t>(i))]);
+  const std::vector<std::string> order = shuffled(dataset.categories, random);
   std::vector<Fold> folds(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < order.size(); ++i) folds[i % folds.size()].push_back(order[i]);
   return folds;
