@@ -2,6 +2,7 @@
 #include <string>
 
 #include "frame/frame_inputs.h"
+#include "frame/seen_shapes.h"
 #include "models/preprocessing.h"
 #include "models/sv_net.h"
 #include "nn/graph/parameters.h"
@@ -13,6 +14,8 @@ struct Model {
   frame::FrameChoice frame = frame::FrameChoice::camera;
   /// Of the frames `axis` and `turned_axis` only.
   frame::DepthChoice depth = frame::DepthChoice::none;
+  /// Of the frames other than `camera`: what top views the head was fitted to.
+  frame::SeenShapes seen{};
   // The backbone, of all frames but `axis`. In frames with turns its output are the values of one turn: it ends in the
   // layers of models/turned_backbone.h.
   std::string backbone;                 // "mobilenet"

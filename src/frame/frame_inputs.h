@@ -28,8 +28,13 @@ Index input_count(const FrameSpec& spec);
 /// The group of each input.
 std::vector<InputGroup> input_groups(const FrameSpec& spec);
 
-/// The inputs of a camera pose. Throws Error for a pose that is out of range (view/camera_pose.h), unless there are
+/// Throws Error unless there are feature_count() features.
+void check_feature_count(const FrameSpec& spec, std::span<const float> features);
+
+/// The inputs of a camera pose. Those of the groups shape, heights and turned are multiplied by `trust`
+/// (seen_shapes.h). Throws Error for a pose that is out of range (view/camera_pose.h), unless there are
 /// feature_count() features, and if the values of the axis are not ones that to_values can return.
-std::vector<double> frame_inputs(const FrameSpec& spec, std::span<const float> features, const view::CameraPose& pose);
+std::vector<double> frame_inputs(const FrameSpec& spec, std::span<const float> features, const view::CameraPose& pose,
+                                 double trust = 1);
 
 }  // namespace svnet::frame

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
@@ -23,10 +24,16 @@ struct PoseInput {
   InputGroup group;
 };
 
+/// F and G.
+double scaled_fill(const ObjectAxis& axis) {
+  constexpr double kLeastFill = 1e-4;
+  return std::log(std::max(axis.fill, kLeastFill)) + 2.5;
+}
+
 /// One list for values, names and groups, so that they cannot differ.
 std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
                                    const PoseInputOptions& options) {
-  constexpr double kLow_deg = 10, kLeastFill = 1e-4, kMostSlender = 2;
+  constexpr double kLow_deg = 10;
   constexpr double kRadians = std::numbers::pi / 180;
   std::vector<PoseInput> inputs;
   const auto add = [&](InputGroup group, const Named& named) { inputs.push_back({named, group}); };
@@ -51,21 +58,20 @@ std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& height
     add(InputGroup::axis, times(missing, x));
   }
 
-  const double log_fill = std::log(std::max(axis.fill, kLeastFill)) + 2.5;
+  const ObjectShape shape = shape_of(axis, heights);
+  const auto if_known = [](double number) { return std::isnan(number) ? 0.0 : number; };
   if (options.shape) {
-    const double clear = axis.kind == AxisKind::unclear ? 0 : 1;
     const std::array<Named, 3> shapes{
-        {{"E", clear * 2 * (axis.elongation - 0.5)}, {"S", clear * (10 * axis.skew - 0.5)}, {"F", clear * log_fill}}};
-    for (const Named& shape : shapes) add(InputGroup::shape, times(shape, x));
+        {{"E", if_known(shape.elongation)}, {"S", if_known(shape.skew)}, {"F", if_known(shape.fill)}}};
+    for (const Named& number : shapes) add(InputGroup::shape, times(number, x));
     for (const Named& term : terms)
-      for (const Named& shape : shapes) add(InputGroup::shape, times(term, shape));
+      for (const Named& number : shapes) add(InputGroup::shape, times(term, number));
   }
 
   if (options.heights) {
     const double known = heights.are_known ? 1 : 0;
-    const double slimness = heights.width > 0 ? std::min(heights.height / heights.width, kMostSlender) : 0;
     const std::array<Named, 3> sizes{
-        {{"T", known * (heights.height - 0.25)}, {"W", known * (slimness - 0.5)}, {"G", known * log_fill}}};
+        {{"T", if_known(shape.height)}, {"W", if_known(shape.slimness)}, {"G", known * scaled_fill(axis)}}};
     const Named missing{"h", 1 - known};
     for (const Named& size : sizes) add(InputGroup::heights, size);
     for (const Named& size : sizes) add(InputGroup::heights, times(size, x));
@@ -78,6 +84,21 @@ std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& height
 }
 
 }  // namespace
+
+ObjectShape shape_of(const ObjectAxis& axis, const Heights& heights) {
+  constexpr double kMostSlender = 2, kUnknown = std::numeric_limits<double>::quiet_NaN();
+  ObjectShape shape{kUnknown, kUnknown, kUnknown, kUnknown, kUnknown};
+  if (axis.kind != AxisKind::unclear) {
+    shape.elongation = 2 * (axis.elongation - 0.5);
+    shape.skew = 10 * axis.skew - 0.5;
+    shape.fill = scaled_fill(axis);
+  }
+  if (heights.are_known) {
+    shape.height = heights.height - 0.25;
+    shape.slimness = (heights.width > 0 ? std::min(heights.height / heights.width, kMostSlender) : 0) - 0.5;
+  }
+  return shape;
+}
 
 double scaled_elevation(const view::CameraPose& pose) { return (pose.phi_deg - 65) / 15; }
 

@@ -26,6 +26,9 @@ namespace svnet::frame {
 /// Inputs of one group share a penalty in a head: phi and axis a small one, the others a larger one.
 enum class InputGroup { phi, axis, shape, heights, turned };
 
+/// Whether inputs of the group say how scores depend on the shape of the object, not what holds for every object.
+constexpr bool is_of_shape(InputGroup group) { return group != InputGroup::phi && group != InputGroup::axis; }
+
 struct PoseInputOptions {
   bool axis = true;      ///< the group axis
   bool shape = false;    ///< the group shape
@@ -39,6 +42,13 @@ constexpr auto enum_table(InputGroup) {
                                               {InputGroup::heights, "heights"},
                                               {InputGroup::turned, "turned"}});
 }
+
+/// E, S, F, T and W above: the shape of an object, whatever the camera pose. E, S and F are NaN if the axis is unclear,
+/// T and W if the heights are not known.
+struct ObjectShape {
+  double elongation, skew, fill, height, slimness;
+};
+ObjectShape shape_of(const ObjectAxis& axis, const Heights& heights);
 
 /// x = (φ - 65) / 15.
 double scaled_elevation(const view::CameraPose& pose);

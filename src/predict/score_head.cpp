@@ -26,16 +26,28 @@ Index feature_count_of(const Model& model) {
 
 ScoreHead::ScoreHead(const Model& model, const InferenceOptions& options)
     : spec_(frame_spec(model)),
+      seen_(model.seen),
       angles_(model.angles),
       symmetries_(model.symmetries),
       feature_count_(feature_count_of(model)),
       network_(model.head, model.head_parameters, model.head.output(), options) {}
 
-std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const CameraPose> poses) const {
+void ScoreHead::check_features(const Tensor& features) const {
   check(features.defined() && features.shape() == Shape{1, feature_count_} && features.dtype() == DType::f32,
         "[predict] features are ", features.defined() ? to_string(features.shape()) : "none", ", the model expects ",
         to_string({1, feature_count_}), " f32");
   check_finite(features, "feature");
+}
+
+ScoreHead::Familiarity ScoreHead::familiarity(const Tensor& features) const {
+  check_features(features);
+  if (spec_.frame == frame::FrameChoice::camera) return {};
+  const std::vector<double> numbers = frame::shape_numbers(spec_, features.values<float>());
+  return {frame::distance(seen_, numbers), seen_.limit, frame::trust(seen_, numbers)};
+}
+
+std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const CameraPose> poses) const {
+  check_features(features);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     const std::string problem = pose_problem(poses[i]);
     check(problem.empty(), "[predict] pose ", i, ": ", problem);
@@ -44,6 +56,7 @@ std::vector<float> ScoreHead::scores(const Tensor& features, std::span<const Cam
 }
 
 std::vector<float> ScoreHead::frame_scores(const Tensor& features, std::span<const CameraPose> poses) const {
+  const double trust = familiarity(features).trust;
   const Index inputs = frame::input_count(spec_), count = static_cast<Index>(poses.size());
   std::vector<float> result;
   for (Index begin = 0; begin < count; begin += kPosesAtOnce) {
@@ -51,7 +64,7 @@ std::vector<float> ScoreHead::frame_scores(const Tensor& features, std::span<con
     Tensor batch = Tensor::empty({size, inputs});
     for (Index i = 0; i < size; ++i) {
       const auto values =
-          frame::frame_inputs(spec_, features.values<float>(), poses[static_cast<std::size_t>(begin + i)]);
+          frame::frame_inputs(spec_, features.values<float>(), poses[static_cast<std::size_t>(begin + i)], trust);
       std::transform(values.begin(), values.end(), batch.data<float>() + i * inputs,
                      [](double value) { return static_cast<float>(value); });
     }

@@ -10,11 +10,25 @@
 namespace svnet::train {
 namespace {
 
-std::vector<double> inputs_of(const View& view, std::span<const float> features, const frame::FrameSpec& spec) {
+std::span<const float> features_of(Index pose, std::span<const float> features, const frame::FrameSpec& spec) {
   const auto size = static_cast<std::size_t>(frame::feature_count(spec));
+  return features.subspan(static_cast<std::size_t>(pose) * size, size);
+}
+
+std::vector<double> inputs_of(const View& view, std::span<const float> features, const frame::FrameSpec& spec,
+                              double trust = 1) {
   return frame::frame_inputs(
-      spec, features.subspan(static_cast<std::size_t>(view.pose) * size, size),
-      {.theta_deg = static_cast<double>(view.theta_deg), .phi_deg = static_cast<double>(view.phi_deg)});
+      spec, features_of(view.pose, features, spec),
+      {.theta_deg = static_cast<double>(view.theta_deg), .phi_deg = static_cast<double>(view.phi_deg)}, trust);
+}
+
+frame::SeenShapes shapes_of(const ViewDataset& dataset, std::span<const float> features,
+                            const std::vector<bool>& categories, const frame::FrameSpec& spec) {
+  std::vector<std::vector<double>> numbers;
+  for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose)
+    if (categories[static_cast<std::size_t>(dataset.poses[pose].category)])
+      numbers.push_back(frame::shape_numbers(spec, features_of(static_cast<Index>(pose), features, spec)));
+  return frame::seen_shapes(numbers);
 }
 
 }  // namespace
@@ -41,15 +55,19 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
   examples.weight = score_weights(examples.y, standard_errors, examples.pose);
 
   RidgeOptions options{.seed = seed};
-  for (const frame::InputGroup group : frame::input_groups(spec))
-    options.small_penalty.push_back(group == frame::InputGroup::phi || group == frame::InputGroup::axis);
-  return {fit_head(examples, options, head), spec};
+  for (const frame::InputGroup group : frame::input_groups(spec)) options.small_penalty.push_back(!is_of_shape(group));
+  return {fit_head(examples, options, head), spec, shapes_of(dataset, features, categories, spec)};
 }
 
 std::vector<double> predictions(const FrameHead& head, const ViewDataset& dataset, std::span<const float> features) {
   PoseExamples views{.inputs = frame::input_count(head.spec)};
+  std::vector<double> trusts;
+  for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose)
+    trusts.push_back(
+        trust(head.seen, shape_numbers(head.spec, features_of(static_cast<Index>(pose), features, head.spec))));
   for (const View& view : dataset.views) {
-    const std::vector<double> inputs = inputs_of(view, features, head.spec);
+    const std::vector<double> inputs =
+        inputs_of(view, features, head.spec, trusts[static_cast<std::size_t>(view.pose)]);
     views.x.insert(views.x.end(), inputs.begin(), inputs.end());
   }
   return predictions(head.fit, views);
@@ -60,6 +78,7 @@ Model model_of(const FrameHead& head) {
   model.frame = head.spec.frame;
   model.depth = head.spec.depth;
   set_head(model, head.fit);
+  model.seen = head.seen;
   return model;
 }
 

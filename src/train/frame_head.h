@@ -15,6 +15,7 @@ namespace svnet::train {
 struct FrameHead {
   HeadFit fit;
   frame::FrameSpec spec;
+  frame::SeenShapes seen;  ///< of the top views of the training categories
 };
 
 /// Fits the scores of the views of `categories` that have one: each minus the mean of its pose, weighted as

@@ -84,3 +84,11 @@ TEST_CASE("features of another frame and poses out of range are refused") {
                     "[frame] there are 46 features of a top view, expected 47");
   CHECK_THROWS_WITH(frame_inputs(spec, features, {0, 95}), Catch::StartsWith("[frame] phi 95"));
 }
+
+TEST_CASE("trust shrinks what depends on the shape and nothing else") {
+  const FrameSpec spec{.frame = FrameChoice::turned_axis, .components = 3};
+  const CameraPose pose{70, 50};
+  const auto all = frame_inputs(spec, features_of(spec), pose), half = frame_inputs(spec, features_of(spec), pose, 0.5);
+  const auto groups = input_groups(spec);
+  for (std::size_t i = 0; i < all.size(); ++i) CHECK(half[i] == all[i] * (is_of_shape(groups[i]) ? 0.5 : 1));
+}

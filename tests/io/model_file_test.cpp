@@ -159,6 +159,24 @@ TEST_CASE("a damaged model in the frame axis is refused") {
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
 }
 
+TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
+  Model model = axis_model(frame::DepthChoice::none);
+  model.seen = {.mean = {1, -2, 0.1}, .deviation = {1, 0, 3}, .limit = 2.5};
+  write_model(path, model);
+  const Model back = read_model(path);
+  CHECK(back.seen.mean == model.seen.mean);
+  CHECK(back.seen.deviation == model.seen.deviation);
+  CHECK(back.seen.limit == 2.5);
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["mean"] = {1, 2}; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 2 means and 3 deviations, expected 3");
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["limit"] = -1; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: a deviation or the limit in seen is negative");
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"].erase("deviation"); });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
+}
+
 TEST_CASE("a model in a frame with turns is read with the same bits, its backbone too") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "model.safetensors";

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "frame/frame_inputs.h"
 #include "frame/top_view.h"
 #include "predict/predictor.h"
 #include "small_model.h"
@@ -110,4 +111,31 @@ TEST_CASE("features that no top view has are refused") {
   CHECK_THROWS_WITH(predictor.scores(features, poses), "[frame] value 0 of a top view is 7, expected 0, 1 or 2");
   CHECK_THROWS_WITH(predictor.scores(Tensor::zeros({1, 14}), poses),
                     "[predict] features are 1x14, the model expects 1x15 f32");
+}
+
+TEST_CASE("a shape unlike those of the training counts less, and the model says so") {
+  Model model = small_axis_model();
+  const CameraPose poses[] = {{0, 45}, {70, 60}, {90, 90}};
+  const Image image = hammer_image();
+  const Predictor sure(model);
+  const Tensor features = sure.embed(image);
+  CHECK(sure.familiarity(features).trust == 1);  // a model of an earlier version does not say what it has seen
+
+  model.seen = {.mean = {0, 0, 0}, .deviation = {0.1, 0.1, 0.1}, .limit = 1};
+  const TemporaryFolder folder;
+  io::write_model(folder.path() / "model.safetensors", model);
+  const Predictor unsure(folder.path() / "model.safetensors");
+  const auto familiarity = unsure.familiarity(features);
+  CHECK(familiarity.limit == 1);
+  CHECK(familiarity.distance > 1);
+  CHECK(familiarity.trust == Approx(1 / familiarity.distance));
+  const auto expected = frame::frame_inputs(frame_spec(model), features.values<float>(), poses[1], familiarity.trust);
+  double logit = model.head_parameters.at("ridge/bias").data<float>()[0];
+  for (std::size_t k = 0; k < expected.size(); ++k)
+    logit += expected[k] * static_cast<double>(model.head_parameters.at("ridge/kernel").data<float>()[k]);
+  CHECK(unsure.scores(features, poses)[1] == Approx(1 / (1 + std::exp(-logit))).margin(1e-5));
+  CHECK(unsure.scores(features, poses) != sure.scores(features, poses));
+
+  const Predictor camera(small_model());
+  CHECK(camera.familiarity(camera.embed(small_image())).trust == 1);
 }

@@ -1,5 +1,7 @@
 #include "io/models/model_file.h"
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "frame/frame_inputs.h"
@@ -67,6 +69,17 @@ void check_camera_model(const Model& model) {
         " features and the angles, or gives more than one score");
 }
 
+void check_seen(const Model& model) {
+  const frame::SeenShapes& seen = model.seen;
+  if (seen.mean.empty() && seen.deviation.empty()) return;
+  const auto count = static_cast<std::size_t>(frame::shape_number_count(frame_spec(model)));
+  check(seen.mean.size() == count && seen.deviation.size() == count, "frame: seen has ", seen.mean.size(),
+        " means and ", seen.deviation.size(), " deviations, expected ", count);
+  const auto is_size = [](double value) { return std::isfinite(value) && value >= 0; };
+  check(std::ranges::all_of(seen.deviation, is_size) && is_size(seen.limit),
+        "frame: a deviation or the limit in seen is negative");
+}
+
 /// A model in a frame other than `camera`.
 void check_frame_model(const Model& model) {
   check(model.depth == frame::DepthChoice::none || frame::has_axis(model.frame), "frame: the frame ",
@@ -80,6 +93,22 @@ void check_frame_model(const Model& model) {
   check(head.inputs().size() == 1 && head.node(head.inputs()[0]).shape == Shape{inputs} &&
             head.node(head.output()).shape == Shape{1},
         "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
+  check_seen(model);
+}
+
+json frame_to_json(const Model& model) {
+  json to = {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}};
+  const frame::SeenShapes& seen = model.seen;
+  if (!seen.mean.empty()) to["seen"] = {{"mean", seen.mean}, {"deviation", seen.deviation}, {"limit", seen.limit}};
+  return to;
+}
+
+/// Models of earlier versions do not say what they have seen.
+frame::SeenShapes seen_from_json(const json& frame) {
+  if (!frame.contains("seen")) return {};
+  const json& seen = frame.at("seen");
+  return {seen.at("mean").get<std::vector<double>>(), seen.at("deviation").get<std::vector<double>>(),
+          seen.at("limit").get<double>()};
 }
 
 /// The description of what the head sees.
@@ -94,7 +123,7 @@ json input_to_json(const Model& model, const Graph& backbone) {
     input["angles"] = {
         {"encoding", name_of(model.angles)}, {"unit", "degree"}, {"order", json::array({"theta", "phi"})}};
   else
-    input["frame"] = {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}};
+    input["frame"] = frame_to_json(model);
   return input;
 }
 
@@ -145,6 +174,7 @@ Model model_of(const TensorFile& file) {
     reading(file, [&] {
       model.frame = choice_from_json<FrameChoice>(frame, "kind");
       model.depth = choice_from_json<frame::DepthChoice>(frame, "depth");
+      model.seen = seen_from_json(frame);
     });
   }
   const bool is_camera = model.frame == FrameChoice::camera, has_backbone = frame::has_backbone(model.frame);
