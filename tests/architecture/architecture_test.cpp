@@ -39,6 +39,7 @@ const std::vector<Room> kRooms{
 
     {"io/files", {"base"}},
     {"io/images", {"base", "image", "io/files"}},
+    {"io/events", {"base", "image", "io/images"}},
     {"io/hdf5", {"base", "io/files"}},
     {"io/tensors", {"base", "nn/*", "io/files"}},
     {"io/keras", {"base", "nn/*", "models", "io/hdf5"}},
