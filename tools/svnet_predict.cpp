@@ -1,4 +1,5 @@
 // svnet-predict: which camera poses show the most of an object, from its top image.
+#include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,7 +10,7 @@
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "io/views/pose_list_file.h"
-#include "predict/half_sphere_plot.h"
+#include "predict/prediction_picture.h"
 #include "predict/predictor.h"
 #include "view/pose_grid.h"
 
@@ -29,11 +30,14 @@ std::string table_text(const std::vector<CameraPose>& poses, const std::vector<f
   return text.str();
 }
 
-std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
+std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores,
+                      const predict::ScoreHead::Familiarity& top_view) {
   nlohmann::ordered_json views = nlohmann::ordered_json::array();
   for (const std::size_t i : predict::best_first(scores))
     views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});
-  return nlohmann::ordered_json{{"best", views.front()}, {"views", views}}.dump(2);
+  const nlohmann::ordered_json top{
+      {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
+  return nlohmann::ordered_json{{"best", views.front()}, {"views", views}, {"top_view", top}}.dump(2);
 }
 
 /// The image as it is stored, with a warning if viewers show it turned, or turned as they do.
@@ -77,12 +81,17 @@ int main(int argc, char** argv) {
       .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
       .one_of(names_of<ExifOrientation>())
       .shows_default();
-  command.add_flag("--json", json, "Prints JSON: best, and views with theta_deg, phi_deg, score, best first");
+  command.add_flag(
+      "--json", json,
+      "Prints JSON: best, and views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
+      "from those that the model was trained on (distance, limit), and the share that it counts (trust)");
   command
       .add("--plot", plot,
-           "Writes a PNG image of the half-sphere from above: the top view in the centre, theta 0 to the right, "
-           "counter-clockwise; dots from dark blue (lowest score) to yellow, the best ringed in red. With /dev/stdout "
-           "no scores are printed")
+           "Writes a PNG image: the top image with the object's axis, beside it the half-sphere from above, with the "
+           "top "
+           "view in the centre and theta 0 to the right, counter-clockwise; dots from dark blue (lowest score) to "
+           "yellow, "
+           "the best ringed in red. With /dev/stdout no scores are printed")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     if (!plot.empty()) check_can_be_written(plot, {model, image, depth_file, poses_file}, io::Streams::allowed);
@@ -94,8 +103,16 @@ int main(int argc, char** argv) {
     check(depth || !predictor.uses_depth(), model.string(),
           ": was trained with depth; give the depth image of the top view by --depth");
     const Image top = top_image(image, exif, console);
-    const std::vector<float> scores = predictor.scores(predictor.embed(top, depth ? &*depth : nullptr), poses);
-    if (!plot.empty()) io::write_png(plot, predict::half_sphere_plot(poses, scores));
-    if (!io::is_standard_output(plot)) console.result(json ? json_text(poses, scores) : table_text(poses, scores));
+    const Tensor features = predictor.embed(top, depth ? &*depth : nullptr);
+    const auto familiarity = predictor.familiarity(features);
+    if (familiarity.trust < 1)
+      console.line(joined(image.string(),
+                          ": the object's shape is unlike those that the model was trained on: distance ",
+                          familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
+                          std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
+    const std::vector<float> scores = predictor.scores(features, poses);
+    if (!plot.empty()) io::write_png(plot, predict::prediction_picture(top, depth ? &*depth : nullptr, poses, scores));
+    if (!io::is_standard_output(plot))
+      console.result(json ? json_text(poses, scores, familiarity) : table_text(poses, scores));
   });
 }

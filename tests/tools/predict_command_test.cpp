@@ -5,7 +5,7 @@
 #include "frame/top_view.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
-#include "predict/half_sphere_plot.h"
+#include "predict/prediction_picture.h"
 #include "predict/predictor.h"
 #include "shell.h"
 #include "small_model.h"
@@ -76,7 +76,8 @@ TEST_CASE("svnet-predict reads candidates from a file and draws them") {
     CHECK_THAT(ran.out, Catch::Contains(part));
   const Predictor predictor(small_model());
   const std::vector<CameraPose> poses{{10, 50}, {200.5, 70}, {-90, 0}};
-  const Image expected = half_sphere_plot(poses, predictor.scores(predictor.embed(small_image()), poses));
+  const Image expected =
+      prediction_picture(small_image(), nullptr, poses, predictor.scores(predictor.embed(small_image()), poses));
   CHECK(read_image(place.folder.path() / "plot.png").rgb == expected.rgb);
 }
 
