@@ -4,6 +4,7 @@
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
 #include "train/config/config_file.h"
+#include "train/paper_figures.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
 #include "train/stages/model.h"
@@ -89,9 +90,16 @@ int main(int argc, char** argv) {
     const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
     const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     const bool prints = !io::is_standard_output(json);
+    const bool as_paper = train::holds_out_papers_categories(config);
+    const auto print = [&](const train::EvaluationTable& table, const std::string& title, train::Split split) {
+      console.result(table_text(table, title) + (as_paper ? paper_figures_text(table, split) : ""));
+    };
     if (const auto held_out = tables.find("held_out"); prints && held_out != tables.end())
-      console.result(table_text(held_out->second, "Held-out categories"));
-    if (prints) console.result(table_text(tables.at("training"), "Training categories"));
+      print(held_out->second, "Held-out categories", train::Split::held_out);
+    if (prints) {
+      print(tables.at("training"), "Training categories", train::Split::training);
+      console.result(columns_text(tables));
+    }
     if (const auto sheet = contact_sheet_stage(run, inputs, count); sheet && prints)
       console.result(joined("Views of held-out objects: ", sheet->string()));
   });

@@ -1,5 +1,6 @@
 // svnet-train: images become features, features scores, scores train SV-net.
 #include "command/command.h"
+#include "command/progress_text.h"
 #include "io/views/dataset_folder.h"
 #include "mpi/mpi_communicator.h"
 #include "train/config/config_file.h"
@@ -7,13 +8,22 @@
 #include "train/stages/dry_run.h"
 #include "train/stages/features.h"
 #include "train/stages/model.h"
+#include "train/stages/plan.h"
 #include "train/stages/scores.h"
+#include "train/stages/training_summary.h"
 
 namespace svnet {
 using namespace command;
 using train::Resume;
 
 namespace {
+
+/// "plan: scores: 30000000 problems, about 4 min 2 s"
+std::string plan_line(const train::PlannedStage& stage) {
+  std::string line = joined("plan: ", stage.stage, ": ", stage.work);
+  if (stage.is_made) return line + ", made before";
+  return stage.seconds ? line + ", about " + duration_text(*stage.seconds) : line;
+}
 
 int run(int argc, char** argv, Communicator& communicator) {
   Command command(
@@ -55,8 +65,16 @@ int run(int argc, char** argv, Communicator& communicator) {
             make_run(config, std::move(dataset), output, console.messages(), communicator, inference);
         write_config(run);
         train::FeaturesStage features(run);
+        if (communicator.is_root())
+          for (const train::PlannedStage& stage : planned_stages(run, features)) console.line(plan_line(stage));
         const Scores scores = scores_stage(run, features);
-        model_stage(run, features, scores, resume == "auto" ? Resume::same : Resume::never);
+        const Model model = model_stage(run, features, scores, resume == "auto" ? Resume::same : Resume::never);
+        if (communicator.is_root()) {
+          for (const std::string& line : training_summary(run, features, scores, model)) console.line(line);
+          console.line(run.has_held_out_problems()
+                           ? "svnet-eval " + output.string() + " compares them on held-out categories"
+                           : "svnet-crossval tells how well such a model chooses for categories that it never saw");
+        }
         console.result((output / "model.safetensors").string());
       },
       communicator);

@@ -87,6 +87,18 @@ std::string table_text(const EvaluationTable& table, const std::string& title) {
   return text + "\nstandard error of a mean: at most " + number(largest_error, 4) + "\n" + differences_text(table);
 }
 
+std::string columns_text(const EvaluationTables& tables) {
+  std::string text = "Columns: the views that are clustered.\n";
+  for (const SelectorKind& kind : selector_kinds())
+    if (std::ranges::any_of(tables, [&](const auto& table) {
+          return std::ranges::find(table.second.selectors, kind.name) != table.second.selectors.end();
+        }))
+      text += "  " + padded(kind.name, 12) + kind.help + "\n";
+  text += "Numbers: how well the clusters agree with the categories, 1 is perfect.\n";
+  for (const Metric& metric : kMetrics) text += "  " + padded(metric.title, 12) + metric.help + "\n";
+  return text;
+}
+
 nlohmann::ordered_json differences_json(const EvaluationTable& table) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
   const std::size_t svnet = index_of_svnet(table);

@@ -15,6 +15,9 @@ using EvaluationTables = std::map<std::string, EvaluationTable>;
 /// over categories.
 std::string table_text(const EvaluationTable& table, const std::string& title);
 
+/// What the selectors of the tables and the metrics mean, one line each.
+std::string columns_text(const EvaluationTables& tables);
+
 /// {"format": 1, "problems", "tables": {split: {pipeline: {selector: {metric: {"mean", "standard_error"}}}}},
 /// "differences": {split: {pipeline: {"svnet-rand": {metric: {"mean", "low", "high"}}}}}}. "low" and "high" are null if
 /// there are too few categories for an interval.

@@ -9,18 +9,21 @@ namespace svnet::train {
 struct Metric {
   const char* name;   ///< in evaluation.json
   const char* title;  ///< in tables for people
+  const char* help;   ///< what it says, in a few words
   double (*value)(const semantics::Contingency& counts, semantics::NmiAverage average);
 };
 
 /// All metrics of the tables. To add one, add a line.
 inline constexpr std::array kMetrics{
     Metric{"fm", "FM",
+           "Fowlkes-Mallows index: of the pairs of views put together, and of those of one category, the share that is "
+           "right",
            [](const semantics::Contingency& counts, semantics::NmiAverage) { return counts.fowlkes_mallows(); }},
-    Metric{"nmi", "NMI",
+    Metric{"nmi", "NMI", "normalised mutual information: how much a view's cluster says of its category",
            [](const semantics::Contingency& counts, semantics::NmiAverage average) {
              return counts.normalized_mutual_info(average);
            }},
-    Metric{"purity", "purity",
+    Metric{"purity", "purity", "share of views whose category is the most frequent one of their cluster",
            [](const semantics::Contingency& counts, semantics::NmiAverage) { return counts.purity(); }},
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,16 @@
 
 namespace svnet::train {
 
+/// What stages that run inside another one have taken of its time (stage_times.h).
+struct StageClock {
+  double inner_seconds = 0;
+};
+
 /// One run: a configuration, its dataset and its folder. Every stage (train/stages/) is a function of the run and of
 /// what earlier stages returned:
 ///   features-<backbone>[-<layer>].h5 -> scores[-<backbone>][-round-<n>].h5 -> checkpoint-*.safetensors, metrics.csv,
 ///   model.safetensors -> evaluation.json, views.png
+/// timings.csv says how long each of them took.
 /// The processes of a communicator share the work. Each of them gets all results; the root process writes the files.
 struct Run {
   Config config;
@@ -25,6 +32,7 @@ struct Run {
   Communicator& communicator;
   InferenceOptions inference{};
   std::string dataset_fingerprint{};  ///< of the dataset's images
+  std::shared_ptr<StageClock> clock = std::make_shared<StageClock>();
 
   std::uint64_t seed() const { return static_cast<std::uint64_t>(config.seed); }
   /// Per category: the opposite of held_out.

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "train/evaluation_text.h"
+#include "train/paper_figures.h"
 
 using namespace svnet;
 using namespace svnet::semantics;
@@ -153,4 +154,31 @@ TEST_CASE("a pose without scores gets its top view") {
   std::vector<double> scores(12, std::nan(""));
   scores[2] = 0.5;
   CHECK(best_views(scene.dataset, scores) == std::vector<std::int32_t>{1, 2, 5, 7, 9, 11});
+}
+
+TEST_CASE("the columns of tables are explained, each selector once") {
+  EvaluationTables tables;
+  tables["training"].selectors = {"top", "opt_ind"};
+  tables["held_out"].selectors = {"top", "svnet"};
+  const std::string text = columns_text(tables);
+  CHECK_THAT(text, Catch::Contains("top         the top view\n") &&
+                       Catch::Contains("svnet       the view with the best") && Catch::Contains("opt_ind") &&
+                       !Catch::Contains("broadside") && Catch::Contains("purity"));
+  CHECK(text.find("the top view\n") == text.rfind("the top view\n"));
+}
+
+TEST_CASE("the paper's figures stand beside the paper's own split") {
+  Config config;
+  config.dataset.held_out = {"wrench", "comb", "hammer", "knife", "toothbrush"};
+  CHECK(holds_out_papers_categories(config));
+  config.dataset.held_out.pop_back();
+  CHECK_FALSE(holds_out_papers_categories(config));
+  EvaluationTable table;
+  table.pipelines = {"xception_ward", "mobilenet_v2_ward"};
+  table.selectors = {"rand", "svnet", "broadside"};
+  CHECK(paper_figures_text(table, Split::held_out) ==
+        "The paper, on its own images (FM / NMI / purity):\n"
+        "  xception_ward:  rand .48 / .56 / .74  svnet .55 / .63 / .78\n");
+  table.pipelines = {"mobilenet_v2_ward"};
+  CHECK(paper_figures_text(table, Split::held_out).empty());
 }

@@ -10,6 +10,7 @@
 #include "train/random_problems.h"
 #include "train/selectors.h"
 #include "train/shuffled.h"
+#include "train/stage_times.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/model.h"
 #include "train/stages/pipeline_distances.h"
@@ -168,8 +169,10 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
                                   .seed = run.seed(),
                                   .nmi = run.config.evaluation.nmi,
                                   .baselines = {"top", "rand", "broadside", "phi_map"}};
+  StageTimer timer(run, "evaluation");
   result.table = evaluate(run.dataset, sets, distances.pipelines(), options, Parallel::shared(), run.messages,
                           "evaluation, held-out categories");
+  timer.made();
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "io/files/atomic_file.h"
 #include "train/random_problems.h"
+#include "train/stage_times.h"
 #include "train/stages/held_out_scores.h"
 #include "train/stages/pipeline_distances.h"
 
@@ -20,6 +21,7 @@ std::vector<Selector> selectors(const Run& run, Split split, const SelectorInput
 
 EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs, std::uint64_t problems,
                                   const std::optional<std::filesystem::path>& copy) {
+  StageTimer timer(run, "evaluation");
   PipelineDistances distances(run.config, inputs.features);
   const std::vector<EvaluationPipeline> pipelines = distances.pipelines();
   const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
@@ -62,6 +64,7 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
   const std::string json = tables_json(tables);
   io::write_atomically(run.folder / "evaluation.json", json);
   if (copy) io::write_atomically(*copy, json);
+  timer.made();
   return tables;
 }
 

@@ -26,6 +26,14 @@ const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const
       .first->second;
 }
 
+std::filesystem::path FeaturesStage::file(const std::string& name, const std::string& layer) const {
+  return run_.folder / (file_stem(name, layer) + ".h5");
+}
+
+std::filesystem::path FeaturesStage::turned_file(const std::string& name, const std::string& layer) const {
+  return run_.folder / (file_stem(name, layer) + "-turned.h5");
+}
+
 std::string FeaturesStage::fingerprint(const std::string& name, const std::string& layer) {
   return features_origin(backbone(name, layer), run_.dataset_fingerprint).input_fingerprint;
 }
@@ -41,7 +49,7 @@ const Features& FeaturesStage::stored(const std::filesystem::path& path, const F
 const Features& FeaturesStage::features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, run_.dataset_fingerprint);
-  return stored(run_.folder / (file_stem(name, layer) + ".h5"), origin, "features of " + name, [&] {
+  return stored(file(name, layer), origin, "features of " + name, [&] {
     return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
   });
 }
@@ -49,7 +57,7 @@ const Features& FeaturesStage::features(const std::string& name, const std::stri
 const Features& FeaturesStage::turned_features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = turned_features_origin(source, run_.dataset_fingerprint);
-  return stored(run_.folder / (file_stem(name, layer) + "-turned.h5"), origin, "turned features of " + name, [&] {
+  return stored(turned_file(name, layer), origin, "turned features of " + name, [&] {
     return extract_turned_features(source.backbone, run_.dataset, origin, run_.inference, run_.messages,
                                    run_.communicator);
   });

@@ -24,6 +24,9 @@ class FeaturesStage {
 
   const Features& features(const std::string& backbone, const std::string& layer);
   const BackboneWithOrigin& backbone(const std::string& name, const std::string& layer);
+  /// The files of features() and turned_features().
+  std::filesystem::path file(const std::string& backbone, const std::string& layer) const;
+  std::filesystem::path turned_file(const std::string& backbone, const std::string& layer) const;
   /// The fingerprint that features() have. Loads the backbone, but not the features.
   std::string fingerprint(const std::string& backbone, const std::string& layer);
   /// Features of every turn of the top views (train/turned_features.h).

@@ -13,10 +13,11 @@
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/stages/top_features.h"
+#include "train/stages/trained_network.h"
 #include "train/stages/wanted_scores.h"
 #include "train/top_frames.h"
-#include "train/trained_from.h"
 #include "train/trainer.h"
+#include "train/training_events.h"
 #include "train/turned_projection.h"
 #include "train/validation_categories.h"
 #include "view/symmetry.h"
@@ -50,18 +51,14 @@ std::string wanted_fingerprint(const Run& run, FeaturesStage& features) {
 
 /// The model before training: its head has no parameters yet.
 Model untrained_model(const Config& config, const Backbone& backbone, const std::string& fingerprint) {
-  const models::AngleEncoding angles = config.sv_net.angles;
   return {.backbone = backbone.kind().name,
           .backbone_output = backbone.output_name(),
           .preprocessing = backbone.preprocessing(),
           .backbone_graph = backbone.graph(),
           .backbone_parameters = backbone.parameters(),
-          .angles = angles,
+          .angles = config.sv_net.angles,
           .symmetries = scored_orientations(config),
-          .head = models::sv_net({.features = backbone.dimension(),
-                                  .width = config.sv_net.width,
-                                  .dropout = config.sv_net.dropout,
-                                  .angles = angles}),
+          .head = camera_head(config, backbone),
           .head_parameters = {},
           .input_fingerprint = fingerprint};
 }
@@ -124,6 +121,7 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
   Trainer trainer(graph, training, validation, options, run.communicator);
   const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
+  std::optional<TrainingEvents> events;
   trainer.train(
       from ? std::move(*from)
            : trainer.initial_state(
@@ -133,6 +131,8 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
         if (is_best) write_checkpoint(files.best, state);
         write_checkpoint(files.last, state);
         io::write_atomically(run.folder / "metrics.csv", state.metrics);
+        if (!events) events.emplace(run.folder);
+        events->add(state.metrics);
       },
       run.messages);
   run.communicator.barrier();  // the root process has written what all read
@@ -152,10 +152,10 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
         features.turned_components(sv_net.backbone, sv_net.layer, run.training_categories());
     set_turned_backbone(model, features.backbone(sv_net.backbone, sv_net.layer).backbone, components);
   }
-  const HeadFit head =
+  const FrameHead fitted =
       fit_frame_head(run.dataset, top_features(run, features, model), scores, run.training_categories(), sv_net.target,
-                     frame_spec(model), run.seed(), sv_net.head)
-          .fit;
+                     frame_spec(model), run.seed(), sv_net.head);
+  const HeadFit& head = fitted.fit;
   run.say(joined("SV-net: ridge regression of ", head.ridge.weights.size(), " inputs, penalty ", head.ridge.penalty,
                  ", explains ", 100 * (1 - head.ridge.error),
                  " % of the variance within poses of categories left out"));
@@ -164,6 +164,7 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
     run.say(joined("SV-net: ", head.networks.size(), " networks",
                    head.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
   set_head(model, head);
+  model.seen = fitted.seen;
   model.input_fingerprint = fingerprint;
   return model;
 }
@@ -181,14 +182,12 @@ Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, 
   const auto targets = [&](const std::vector<bool>& categories) {
     return view_targets(run.dataset, scores, categories, config.sv_net.target, config.training.target);
   };
-  const NodeId output = backbone.graph().find(backbone.output_name());
-  const NodeId from = trained_from(config.training.fine_tune, backbone.kind(), backbone.graph(), output);
-  const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, from);
+  const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, first_trained(config, backbone));
   const TrainingSet training_set(run.dataset, *inputs, targets(training), model.angles);
   std::optional<TrainingSet> validation_set;
   if (config.training.validation_categories > 0)
     validation_set.emplace(run.dataset, *inputs, targets(validating), model.angles);
-  const Graph trained = models::trained_graph(backbone.graph(), from, output, model.head);
+  const Graph trained = trained_network(config, backbone);
   run.say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
                  validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
   train_into(model, run, trained, training_set, validation_set ? &*validation_set : nullptr, resume);
@@ -204,6 +203,16 @@ Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores,
                        .resume = resume};
   const auto make = [&] { return make_model(run, features, scores, file.fingerprint, resume); };
   return reuse_or_make(run, file, io::read_model, make, io::write_model);
+}
+
+bool model_is_current(const Run& run, FeaturesStage& features) {
+  const auto path = run.folder / "model.safetensors";
+  if (!std::filesystem::exists(path)) return false;
+  try {
+    return io::read_model(path).input_fingerprint == wanted_fingerprint(run, features);
+  } catch (const Error&) {
+    return false;  // the stage says why it makes the model again
+  }
 }
 
 Model trained_model(const Run& run, FeaturesStage& features) {

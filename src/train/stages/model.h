@@ -11,6 +11,9 @@ namespace svnet::train {
 /// to do with the model and the checkpoints of an earlier run.
 Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores, Resume resume = Resume::same);
 
+/// Whether the run folder holds the model that this configuration leads to.
+bool model_is_current(const Run& run, FeaturesStage& features);
+
 /// The model in the run folder. Throws Error if there is none, or if it was trained with another configuration.
 Model trained_model(const Run& run, FeaturesStage& features);
 

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "train/run.h"
+#include "train/stage_times.h"
 #include "train/stages/resume.h"
 
 namespace svnet::train {
@@ -45,13 +46,16 @@ auto reused(const Run& run, const StageFile& file, const Read& read) -> std::opt
 template <class Read, class Make, class Write>
 auto reuse_or_make(const Run& run, const StageFile& file, const Read& read, const Make& make, const Write& write)
     -> decltype(make()) {
+  StageTimer timer(run, file.content);
   if (auto found = reused(run, file, read)) {
     run.say(joined(file.content, ": reused ", file.path.filename().string()));
+    timer.reused();
     return std::move(*found);
   }
   auto made = make();
   if (run.communicator.is_root()) write(file.path, made);
   run.communicator.barrier();
+  timer.made();
   return made;
 }
 
