@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 #include "base/parallel.h"
 #include "nn/graph/run.h"
@@ -133,27 +134,47 @@ Checkpoint Trainer::initial_state(Parameters parameters) const {
           .optimizer = {}};
 }
 
-void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&, bool best)>& after_epoch,
-                    const Messages& messages) {
+double Trainer::finish_epoch(Checkpoint& state, Optimizer& optimizer, const Callbacks& callbacks, Progress& progress,
+                             Index& done) const {
+  const auto order = epoch_order(training_.size(), options_.seed, state.epoch);
+  double sum = std::exchange(state.loss_sum, 0.0);
+  const Index finished = std::exchange(state.steps_in_epoch, 0);
+  Index steps = 0;
+  for (Index begin = 0, end; begin < training_.size(); begin = end) {
+    end = batch_end(begin, options_.batch_size, training_.size());
+    if (steps++ < finished) continue;
+    const auto examples =
+        std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
+    sum += step(examples, state.parameters, optimizer) * static_cast<double>(end - begin);
+    ++done;
+    if (end == training_.size()) break;
+    try {
+      progress.update(done);
+    } catch (...) {
+      state.steps = optimizer.steps;
+      state.steps_in_epoch = steps;
+      state.loss_sum = sum;
+      if (callbacks.interrupted) callbacks.interrupted(state);
+      throw;
+    }
+  }
+  return sum;
+}
+
+void Trainer::train(Checkpoint state, const Callbacks& callbacks, const Messages& messages) {
   const auto optimizer = new_optimizer(state.parameters);
   optimizer->restore(state.optimizer, state.steps);
   state.optimizer = optimizer->state();
 
   const Index per_epoch = steps_per_epoch();
-  Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch);
+  check(state.steps_in_epoch >= 0 && state.steps_in_epoch < per_epoch, "[training] the checkpoint has ",
+        state.steps_in_epoch, " steps of an epoch that has ", per_epoch);
+  Progress progress(messages, "training", (options_.epochs - state.epoch) * per_epoch - state.steps_in_epoch);
   Index done = 0;
   const auto patient = [&] { return options_.patience == 0 || state.epoch - state.best_epoch < options_.patience; };
   while (state.epoch < options_.epochs && patient()) {
-    const auto order = epoch_order(training_.size(), options_.seed, state.epoch);
-    const double rate = options_.schedule.at(optimizer->steps);
-    double sum = 0;
-    for (Index begin = 0, end; begin < training_.size(); begin = end) {
-      end = batch_end(begin, options_.batch_size, training_.size());
-      const auto examples =
-          std::span(order).subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin));
-      sum += step(examples, state.parameters, *optimizer) * static_cast<double>(end - begin);
-      if (++done % per_epoch != 0) progress.update(done);
-    }
+    const double rate = options_.schedule.at(optimizer->steps - state.steps_in_epoch);
+    const double sum = finish_epoch(state, *optimizer, callbacks, progress, done);
     const double loss = sum / static_cast<double>(training_.size());
     const Validation validation = validate(state.parameters);
     ++state.epoch;
@@ -173,7 +194,7 @@ void Trainer::train(Checkpoint state, const std::function<void(const Checkpoint&
     if (messages.line)
       messages.line(joined("epoch ", state.epoch, "/", options_.epochs, ": loss ", loss, validation_text(validation),
                            best ? ", best so far" : ""));
-    after_epoch(state, best);
+    callbacks.after_epoch(state, best);
     progress.update(done);
   }
   if (state.epoch < options_.epochs && messages.line)

@@ -43,13 +43,18 @@ class Trainer {
   /// The state before the first step.
   io::Checkpoint initial_state(Parameters parameters) const;
 
+  struct Callbacks {
+    /// After each epoch, with the state, and with whether the epoch is the best so far: by Spearman's rank correlation
+    /// within the poses of the validation set if there is one, otherwise by training loss.
+    std::function<void(const io::Checkpoint&, bool best)> after_epoch;
+    /// If messages.progress throws within an epoch because the program is to end: with the state after the last step.
+    std::function<void(const io::Checkpoint&)> interrupted{};
+  };
+
   /// Continues from a checkpoint, with the bits of a training that was not interrupted; changes its parameters in
-  /// place. After each epoch calls `after_epoch` with the state, and with whether the epoch is the best so far: by
-  /// Spearman's rank correlation within the poses of the validation set if there is one, otherwise by training loss.
-  /// Throws Error if the loss or a gradient
-  /// is not finite, or if the processes of the communicator have different parameters.
-  void train(io::Checkpoint state, const std::function<void(const io::Checkpoint&, bool best)>& after_epoch,
-             const Messages& messages);
+  /// place. Throws Error if the loss or a gradient is not finite, if the checkpoint has more steps of an epoch than
+  /// there are, or if the processes of the communicator have different parameters.
+  void train(io::Checkpoint state, const Callbacks& callbacks, const Messages& messages);
 
   /// The shapes of the optimizer's state, which read_checkpoint needs.
   std::vector<Shape> optimizer_shapes() const;
@@ -57,6 +62,9 @@ class Trainer {
   Index steps_per_epoch() const;
 
  private:
+  /// The rest of an epoch. Returns the sum of the losses of the whole epoch.
+  double finish_epoch(io::Checkpoint& state, Optimizer& optimizer, const Callbacks& callbacks, Progress& progress,
+                      Index& done) const;
   double step(std::span<const std::int32_t> examples, Parameters& parameters, Optimizer& optimizer) const;
   Validation validate(const Parameters& parameters) const;
   std::unique_ptr<Optimizer> new_optimizer(const Parameters& parameters) const;

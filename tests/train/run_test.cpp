@@ -141,6 +141,31 @@ TEST_CASE("an interrupted training resumes to the same bits") {
   CHECK(log.has("training: goes on after epoch 2"));
 }
 
+TEST_CASE("a training that is interrupted after every step goes on to the same bits") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  const auto expected = results(config, temporary.path() / "whole", {});
+  struct Stop {};
+  Log log;
+  Messages stopping = log.messages;  // the first report of progress comes after the first step
+  stopping.progress = [](std::string_view task, Index, Index, double) {
+    if (task == "training") throw Stop{};
+  };
+  constexpr int kSteps = 4 * 5;
+  std::vector<std::string> made;
+  int interruptions = 0;
+  for (; made.empty() && interruptions <= kSteps; ++interruptions) try {
+      made = results(config, temporary.path() / "run", stopping);
+    } catch (const Stop&) {
+    }
+  CHECK(made == expected);
+  CHECK(interruptions == kSteps + 1);
+  CHECK(log.has("training: goes on after epoch 0 and 3 steps of the next"));
+  CHECK(log.has("training: goes on after epoch 2 and 1 steps of the next"));
+  CHECK(log.has("training: goes on after epoch 3"));
+}
+
 TEST_CASE("with validation categories the epoch that ranks their views best is kept, and training stops in time") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");

@@ -12,6 +12,8 @@ void write_checkpoint(const std::filesystem::path& path, const Checkpoint& check
                         {"input_fingerprint", checkpoint.input_fingerprint},
                         {"epoch", checkpoint.epoch},
                         {"steps", checkpoint.steps},
+                        {"steps_in_epoch", checkpoint.steps_in_epoch},
+                        {"loss_sum", checkpoint.loss_sum},
                         {"best_loss", checkpoint.best_loss},
                         {"best_epoch", checkpoint.best_epoch},
                         {"metrics", checkpoint.metrics}};
@@ -26,6 +28,8 @@ Checkpoint read_checkpoint(const std::filesystem::path& path, const Graph& graph
   Checkpoint checkpoint{.input_fingerprint = file.get<std::string>("input_fingerprint"),
                         .epoch = file.get<Index>("epoch"),
                         .steps = file.get<Index>("steps"),
+                        .steps_in_epoch = file.get<Index>("steps_in_epoch"),
+                        .loss_sum = file.get<double>("loss_sum"),
                         .best_loss = file.get<double>("best_loss"),
                         .best_epoch = file.get<Index>("best_epoch"),
                         .metrics = file.get<std::string>("metrics"),

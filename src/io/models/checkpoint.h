@@ -7,11 +7,13 @@
 
 namespace svnet::io {
 
-/// The state of training after an epoch: everything that resuming needs.
+/// The state of training after an epoch, or within one: everything that resuming needs.
 struct Checkpoint {
   std::string input_fingerprint;  // of everything that training depends on
   Index epoch = 0;                // number of finished epochs
   Index steps = 0;                // number of optimizer steps so far
+  Index steps_in_epoch = 0;       // of them, those of an epoch that is not finished
+  double loss_sum = 0;            // over the examples of that epoch so far
   double best_loss = 0;           // of the best epoch so far: 1 - Spearman on validation categories, or training loss
   Index best_epoch = 0;           // that epoch, from 1 on
   std::string metrics;            // the contents of metrics.csv so far

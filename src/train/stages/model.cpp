@@ -97,18 +97,20 @@ std::optional<Checkpoint> resumed_checkpoint(const Run& run, const CheckpointFil
                                              Resume resume) {
   std::optional<Checkpoint> from;
   if (resume != Resume::never && run.communicator.is_root()) try {
-      const bool same = io::read_checkpoint_fingerprint(files.last) == fingerprint &&
-                        io::read_checkpoint_fingerprint(files.best) == fingerprint;
+      const bool same = io::read_checkpoint_fingerprint(files.last) == fingerprint;
       check(same || resume != Resume::any || !std::filesystem::exists(files.last), files.last.string(),
             ": a checkpoint of another training");
       if (same) from = io::read_checkpoint(files.last, graph, optimizer);
+      // Within the first epoch there is no best one yet.
+      if (from && from->epoch > 0 && io::read_checkpoint_fingerprint(files.best) != fingerprint) from.reset();
     } catch (const Error& error) {
       if (resume == Resume::any) throw;
       run.say(joined("training starts anew: ", error.what()));
     }
   if (run.communicator.broadcast(from.has_value()) == 0) return {};
   if (!from) from = io::read_checkpoint(files.last, graph, optimizer);
-  run.say(joined("training: goes on after epoch ", from->epoch));
+  run.say(joined("training: goes on after epoch ", from->epoch,
+                 from->steps_in_epoch > 0 ? joined(" and ", from->steps_in_epoch, " steps of the next") : ""));
   return from;
 }
 
@@ -122,19 +124,23 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
   const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
   std::optional<TrainingEvents> events;
-  trainer.train(
-      from ? std::move(*from)
-           : trainer.initial_state(
-                 models::trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
-      [&](const Checkpoint& state, bool is_best) {
-        if (!run.communicator.is_root()) return;
-        if (is_best) write_checkpoint(files.best, state);
-        write_checkpoint(files.last, state);
-        io::write_atomically(run.folder / "metrics.csv", state.metrics);
-        if (!events) events.emplace(run.folder);
-        events->add(state.metrics);
-      },
-      run.messages);
+  trainer.train(from ? std::move(*from)
+                     : trainer.initial_state(
+                           models::trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
+                {.after_epoch =
+                     [&](const Checkpoint& state, bool is_best) {
+                       if (!run.communicator.is_root()) return;
+                       if (is_best) write_checkpoint(files.best, state);
+                       write_checkpoint(files.last, state);
+                       io::write_atomically(run.folder / "metrics.csv", state.metrics);
+                       if (!events) events.emplace(run.folder);
+                       events->add(state.metrics);
+                     },
+                 .interrupted =
+                     [&](const Checkpoint& state) {
+                       if (run.communicator.is_root()) write_checkpoint(files.last, state);
+                     }},
+                run.messages);
   run.communicator.barrier();  // the root process has written what all read
   models::take_trained(io::read_checkpoint_parameters(files.best, graph), model.backbone_parameters,
                        model.head_parameters);
