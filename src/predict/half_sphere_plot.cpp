@@ -1,11 +1,11 @@
 #include "predict/half_sphere_plot.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "base/error.h"
 #include "predict/predictor.h"
+#include "view/colour_scale.h"
 
 namespace svnet::predict {
 using view::Colour;
@@ -14,16 +14,8 @@ namespace {
 
 constexpr double kDot_px = 11;
 constexpr Colour kOutline{40, 40, 40}, kBest{214, 39, 40};
-/// Brightness rises with the score, so that a grey print keeps the order.
-constexpr std::array<Colour, 5> kScale{{{48, 18, 92}, {59, 82, 139}, {33, 145, 140}, {94, 201, 98}, {253, 231, 37}}};
 
 }  // namespace
-
-Colour score_colour(double height) {
-  const double place = std::clamp(height, 0.0, 1.0) * (kScale.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), kScale.size() - 2);
-  return view::mixed(kScale[below], kScale[below + 1], place - static_cast<double>(below));
-}
 
 Image half_sphere_plot(std::span<const view::CameraPose> poses, std::span<const float> scores) {
   check(poses.size() == scores.size(), "[plot] there are ", poses.size(), " poses and ", scores.size(), " scores");
@@ -40,7 +32,7 @@ Image half_sphere_plot(std::span<const view::CameraPose> poses, std::span<const 
   std::vector<std::size_t> order = best_first(scores);
   for (auto i = order.rbegin(); i != order.rend(); ++i) {
     canvas.disc(kOutline, clamped_pose(poses[*i]), kDot_px + 1);
-    canvas.disc(score_colour(range > 0 ? (scores[*i] - lowest) / range : 1), clamped_pose(poses[*i]), kDot_px);
+    canvas.disc(view::scale_colour(range > 0 ? (scores[*i] - lowest) / range : 1), clamped_pose(poses[*i]), kDot_px);
   }
   canvas.circle(kBest, clamped_pose(poses[best]), kDot_px + 5, 4);
   return canvas.take();

@@ -3,7 +3,6 @@
 
 #include "image/image.h"
 #include "view/camera_pose.h"
-#include "view/half_sphere_canvas.h"
 
 namespace svnet::predict {
 
@@ -11,8 +10,5 @@ namespace svnet::predict {
 /// dark blue (lowest score) through green to yellow (highest); a red ring marks the best pose. Higher scores cover
 /// lower ones. Throws Error unless there is at least one pose, a finite score for each, and all poses are in range.
 Image half_sphere_plot(std::span<const view::CameraPose> poses, std::span<const float> scores);
-
-/// The colour of a score in the plot; `height` is 0 for the lowest score and 1 for the highest.
-view::Colour score_colour(double height);
 
 }  // namespace svnet::predict

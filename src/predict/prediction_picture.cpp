@@ -12,6 +12,7 @@
 #include "image/opencv_image.h"
 #include "predict/half_sphere_plot.h"
 #include "predict/predictor.h"
+#include "view/colour_scale.h"
 
 namespace svnet::predict {
 namespace {
@@ -108,7 +109,7 @@ void draw_labels(cv::Mat3b& picture) {
 void draw_scale(cv::Mat3b& picture, double lowest, double highest) {
   constexpr int kFrom_px = kTop_px + 40, kTo_px = kTop_px + kSide_px - 40;
   for (int y = kFrom_px; y < kTo_px; ++y) {
-    const view::Colour colour = score_colour(static_cast<double>(kTo_px - 1 - y) / (kTo_px - 1 - kFrom_px));
+    const view::Colour colour = view::scale_colour(static_cast<double>(kTo_px - 1 - y) / (kTo_px - 1 - kFrom_px));
     cv::rectangle(picture, cv::Rect(kScaleLeft_px, y, kScaleWidth_px, 1), {colour[0], colour[1], colour[2]},
                   cv::FILLED);
   }
