@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <string>
 
 #include "base/exif_orientation.h"
 #include "image/image.h"
@@ -27,6 +28,9 @@ StoredImage read_stored_image(const std::filesystem::path& path);
 
 /// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or cannot be read.
 int read_exif_orientation(const std::filesystem::path& path);
+
+/// The contents of a baseline JPEG file of the image. `quality`: 1 to 100. Requires an image with pixels.
+std::string encoded_jpeg(const Image& image, int quality);
 
 /// Writes an 8-bit RGB PNG atomically (io/files/atomic_file.h). Throws Error that names `path`.
 void write_png(const std::filesystem::path& path, const Image& image);

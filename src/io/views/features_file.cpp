@@ -52,6 +52,12 @@ void check_features(const std::string& file, const Features& features) {
 
 }  // namespace
 
+FeaturesOrigin read_features_origin(const std::filesystem::path& path) {
+  FeaturesOrigin origin;
+  read_origin(Hdf5File::open(path), origin);
+  return origin;
+}
+
 Features read_features(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);
   Features features;

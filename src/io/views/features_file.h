@@ -12,6 +12,9 @@ namespace svnet::io {
 /// and all values are finite.
 Features read_features(const std::filesystem::path& path);
 
+/// Where the features of a file come from, without reading them. Throws Error that names the file and the attribute.
+FeaturesOrigin read_features_origin(const std::filesystem::path& path);
+
 /// Replaces the file as a whole. Throws Error for features that read_features would refuse.
 void write_features(const std::filesystem::path& path, const Features& features);
 
