@@ -6,6 +6,7 @@
 #include "base/error.h"
 #include "predict/predictor.h"
 #include "view/colour_scale.h"
+#include "view/half_sphere_canvas.h"
 
 namespace svnet::predict {
 using view::Colour;

@@ -48,7 +48,8 @@ struct EvaluationOptions {
   std::uint64_t problems = 10000;
   std::uint64_t seed = 0;
   semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
-  std::vector<std::string> baselines{"top", "rand"};  ///< selectors to compare with, if the table has them
+  /// Selectors to compare with, if the table has them.
+  std::vector<std::string> baselines{"top", "rand", "broadside", "phi_map"};
 };
 
 /// Random problems, and the selectors that choose their views.

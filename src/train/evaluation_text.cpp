@@ -122,7 +122,10 @@ std::string tables_json(const EvaluationTables& tables) {
         for (std::size_t m = 0; m < kMetrics.size(); ++m) {
           const Mean& mean = table.cells[p][s][m];
           json["tables"][split][table.pipelines[p]][table.selectors[s]][kMetrics[m].name] = {
-              {"mean", mean.mean}, {"standard_error", mean.standard_error}};
+              {"mean", mean.mean},
+              {"standard_error", mean.standard_error},
+              {"low", mean.interval.low},
+              {"high", mean.interval.high}};
         }
     if (auto differences = differences_json(table); !differences.empty())
       json["differences"][split] = std::move(differences);

@@ -1,6 +1,7 @@
 #include "train/stages/cross_validation.h"
 
 #include <set>
+#include <span>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -74,6 +75,28 @@ void take_held_out(const Run& fold, const std::vector<Selector>& from, std::vect
         all[s].view[pose] = from[s].view[pose];
   }
 }
+
+/// The mean over the folds that hold a view's category out.
+class HeldOutMean {
+ public:
+  explicit HeldOutMean(std::size_t views) : sum_(views), count_(views) {}
+  void add(const Run& fold, std::span<const double> predicted) {
+    for (std::size_t v = 0; v < sum_.size(); ++v)
+      if (fold.held_out[static_cast<std::size_t>(fold.dataset.views[v].category)]) {
+        sum_[v] += predicted[v];
+        ++count_[v];
+      }
+  }
+  /// NaN for views that no fold holds out.
+  std::vector<double> means() const {
+    std::vector<double> means;
+    for (std::size_t v = 0; v < sum_.size(); ++v) means.push_back(sum_[v] / count_[v]);
+    return means;
+  }
+
+ private:
+  std::vector<double> sum_, count_;
+};
 
 std::vector<bool> every_category(const Run& run) { return std::vector<bool>(run.dataset.categories.size(), true); }
 
@@ -149,12 +172,14 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   std::vector<WithinPose> within_poses;
   std::vector<Selector> of_all_folds;
   std::vector<EvaluationSet> sets;
+  HeldOutMean predicted(run.dataset.views.size());
   for (std::size_t f = 0; f < folds.size(); ++f) {
     run.say(joined("fold ", f + 1, " of ", folds.size(), ": without ", joined_with(", ", folds[f])));
     const Run fold = run_of_fold(run, folds[f], f + 1);
     const FoldChoices choices = choices_of(fold, features, scores, kinds);
     within_poses.push_back(within_pose(run.dataset, choices.predicted, target, fold.held_out));
     result.folds.push_back({folds[f], within_poses.back()});
+    predicted.add(fold, choices.predicted);
     if (problems == FoldProblems::own_categories)
       sets.push_back({problems_of(run, fold.held_out), choices.selectors});
     else
@@ -163,12 +188,13 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   if (problems == FoldProblems::all_categories) sets.push_back({problems_of(run, every_category(run)), of_all_folds});
   result.within_pose = mean_of(within_poses);
   result.choices = std::move(of_all_folds);
+  result.predicted = predicted.means();
+  result.scores = scores;
 
   PipelineDistances distances(run.config, features);
   const EvaluationOptions options{.problems = static_cast<std::uint64_t>(run.config.evaluation.problems),
                                   .seed = run.seed(),
-                                  .nmi = run.config.evaluation.nmi,
-                                  .baselines = {"top", "rand", "broadside", "phi_map"}};
+                                  .nmi = run.config.evaluation.nmi};
   StageTimer timer(run, "evaluation");
   result.table = evaluate(run.dataset, sets, distances.pipelines(), options, Parallel::shared(), run.messages,
                           "evaluation, held-out categories");

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "data/scores.h"
 #include "train/evaluation.h"
 #include "train/run.h"
 #include "train/stages/features.h"
@@ -42,6 +43,10 @@ struct CrossValidation {
   WithinPose within_pose;  ///< over the held-out poses of all folds
   std::vector<FoldResult> folds;
   std::vector<Selector> choices;  ///< the views of the table's selectors; empty with FoldProblems::own_categories
+  /// Of every view, the score that the model of its category's fold predicts; the mean over folds if several hold the
+  /// category out, NaN if none does.
+  std::vector<double> predicted{};
+  Scores scores{};  ///< the true scores, of all categories with uniform views
 };
 
 /// Writes views.png: the top view of some objects, the view that was chosen for them without their category, and the
