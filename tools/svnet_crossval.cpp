@@ -1,7 +1,10 @@
 // svnet-crossval: how well SV-net chooses views of categories that it never saw.
+#include "base/parallel.h"
+#include "command/browser.h"
 #include "command/command.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "report/collect.h"
 #include "train/config/config_file.h"
 #include "train/evaluation_text.h"
 #include "train/run_folder.h"
@@ -46,6 +49,7 @@ struct Arguments {
   fs::path config_file, output;
   std::vector<std::string> overrides, folds, sweeps;
   Index fold_count = 6, repeats = 1, each_choice_of = 0;
+  bool open = false;
 
   train::FoldProblems problems() const {
     return each_choice_of > 0 ? train::FoldProblems::own_categories : train::FoldProblems::all_categories;
@@ -110,6 +114,12 @@ void cross_validate(const Arguments& arguments, Console& console) {
   if (const auto sheet = train::cross_validation_sheet(base, validations.front().result))
     console.result("Views of some objects: " + sheet->string());
   console.result((arguments.output / "crossval.json").string());
+  report::write_predictions(arguments.output, base.dataset,
+                            report::predictions_of(runs.front().run, validations.front().result));
+  const fs::path page =
+      report::write_report(runs.front().run.config, base.dataset, arguments.output, Parallel::shared());
+  console.result("Report: " + page.string());
+  if (arguments.open) show_in_browser(page, console);
 }
 
 }  // namespace
@@ -118,7 +128,8 @@ int main(int argc, char** argv) {
   Command command("svnet-crossval",
                   "Cross-validation over categories: trains a model for each fold without the fold's categories, lets "
                   "it choose their views, and compares all choices with fixed rules, random views and the best views. "
-                  "Features, scores and models are kept in the output folder and reused.",
+                  "Features, scores and models are kept in the output folder and reused. report.html there shows the "
+                  "results.",
                   "svnet-crossval configs/eth80.yaml --folds 4 --output runs/eth80-crossval\n"
                   "svnet-crossval configs/eth80.yaml --fold apple,car --sweep scores.rounds=0,2 --output runs/rounds");
   Arguments arguments;
@@ -152,5 +163,6 @@ int main(int argc, char** argv) {
       .positive()
       .shows_default();
   command.add("--output", arguments.output, "The folder of the results").required().value_name("DIR");
+  command.add_flag("--open", arguments.open, "Shows report.html in a browser");
   return command.run(argc, argv, [&](Console& console) { cross_validate(arguments, console); });
 }

@@ -1,15 +1,21 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
+#include "base/parallel.h"
+#include "command/browser.h"
 #include "command/command.h"
 #include "config_option.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "report/collect.h"
 #include "train/config/config_file.h"
 #include "train/paper_figures.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
+#include "train/stages/evaluation_events.h"
+#include "train/stages/held_out_scores.h"
 #include "train/stages/model.h"
 #include "train/stages/predictions.h"
 #include "train/stages/scores.h"
+#include "train/view_targets.h"
 
 namespace {
 
@@ -45,12 +51,15 @@ int main(int argc, char** argv) {
   Command command(
       "svnet-eval",
       "Prints the tables of held-out and of training categories and writes evaluation.json into the run folder, "
-      "and views.png: held-out objects from above, from the view that SV-net chooses, and from the best view.",
+      "views.png: held-out objects from above, from the view that SV-net chooses, and from the best view, and "
+      "report.html, a "
+      "page that shows all of it.",
       "svnet-eval runs/eth80 --problems 1000");
   fs::path source, json;
   std::vector<std::string> selectors;
   Config given;  // by options
   std::vector<std::string> overrides;
+  bool open = false;
   command.add("CONFIG|RUN_DIR", source, "A run folder, or the configuration of runs/<its name>").required();
   command.add("--set", overrides, "Sets a key of the configuration; dataset.root=DIR for data that were moved")
       .value_name("KEY=VALUE")
@@ -63,6 +72,7 @@ int main(int argc, char** argv) {
       .value_name("NAMES");
   command.add("--json", json, "Writes evaluation.json here too. With /dev/stdout no tables are printed")
       .value_name("FILE");
+  command.add_flag("--open", open, "Shows report.html in a browser");
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
@@ -100,7 +110,20 @@ int main(int argc, char** argv) {
       print(tables.at("training"), "Training categories", train::Split::training);
       console.result(columns_text(tables));
     }
-    if (const auto sheet = contact_sheet_stage(run, inputs, count); sheet && prints)
-      console.result(joined("Views of held-out objects: ", sheet->string()));
+    std::optional<semantics::SemanticScores> held_out_scores;
+    if (run.has_held_out_problems()) held_out_scores = train::held_out_scores(run, features, count);
+    if (held_out_scores) {
+      const fs::path sheet = contact_sheet_stage(run, predicted, *held_out_scores);
+      if (prints) console.result(joined("Views of held-out objects: ", sheet.string()));
+    }
+    write_evaluation_events(
+        run, tables, predicted,
+        held_out_scores ? target_scores(*held_out_scores, config.sv_net.target) : std::vector<double>());
+    report::write_predictions(
+        folder, run.dataset,
+        report::predictions_of(run, predicted, scores, held_out_scores ? &*held_out_scores : nullptr));
+    const fs::path page = report::write_report(run.config, run.dataset, folder, Parallel::shared());
+    if (prints) console.result(joined("Report: ", page.string()));
+    if (open) show_in_browser(page, console);
   });
 }

@@ -10,6 +10,7 @@
 //   SVNET_CONVOLUTION  direct or winograd (likewise)
 //   TMPDIR             the folder for temporary files, if not /tmp
 //   TERM               whether progress is drawn as a bar
+//   DISPLAY, WAYLAND_DISPLAY: whether there is a desktop that can show a report
 //   OMPI_COMM_WORLD_SIZE, PMIX_RANK, PMI_RANK, PMI_SIZE, MV2_COMM_WORLD_SIZE: set by MPI launchers
 // OPENBLAS_CORETYPE, which chooses the kernels of OpenBLAS, is read by OpenBLAS itself.
 namespace svnet {

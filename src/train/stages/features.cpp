@@ -17,6 +17,16 @@ std::string file_stem(const std::string& backbone, const std::string& layer) {
 
 }  // namespace
 
+std::filesystem::path features_file(const std::filesystem::path& folder, const std::string& backbone,
+                                    const std::string& layer) {
+  return folder / (file_stem(backbone, layer) + ".h5");
+}
+
+std::filesystem::path turned_features_file(const std::filesystem::path& folder, const std::string& backbone,
+                                           const std::string& layer) {
+  return folder / (file_stem(backbone, layer) + "-turned.h5");
+}
+
 const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const std::string& layer) {
   const std::string key = name + "/" + layer;
   const auto found = backbones_.find(key);
@@ -24,14 +34,6 @@ const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const
   return backbones_
       .emplace(key, backbone_from_folder(name, layer, run_.config.weights.folder, run_.seed(), run_.inference))
       .first->second;
-}
-
-std::filesystem::path FeaturesStage::file(const std::string& name, const std::string& layer) const {
-  return run_.folder / (file_stem(name, layer) + ".h5");
-}
-
-std::filesystem::path FeaturesStage::turned_file(const std::string& name, const std::string& layer) const {
-  return run_.folder / (file_stem(name, layer) + "-turned.h5");
 }
 
 std::string FeaturesStage::fingerprint(const std::string& name, const std::string& layer) {
@@ -49,7 +51,7 @@ const Features& FeaturesStage::stored(const std::filesystem::path& path, const F
 const Features& FeaturesStage::features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, run_.dataset_fingerprint);
-  return stored(file(name, layer), origin, "features of " + name, [&] {
+  return stored(features_file(run_.folder, name, layer), origin, "features of " + name, [&] {
     return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
   });
 }
@@ -57,7 +59,7 @@ const Features& FeaturesStage::features(const std::string& name, const std::stri
 const Features& FeaturesStage::turned_features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = turned_features_origin(source, run_.dataset_fingerprint);
-  return stored(turned_file(name, layer), origin, "turned features of " + name, [&] {
+  return stored(turned_features_file(run_.folder, name, layer), origin, "turned features of " + name, [&] {
     return extract_turned_features(source.backbone, run_.dataset, origin, run_.inference, run_.messages,
                                    run_.communicator);
   });

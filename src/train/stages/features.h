@@ -14,6 +14,13 @@
 
 namespace svnet::train {
 
+/// The files of features of every view, and of every turn of the top views, in a run folder. The layer "" is the pooled
+/// output.
+std::filesystem::path features_file(const std::filesystem::path& folder, const std::string& backbone,
+                                    const std::string& layer);
+std::filesystem::path turned_features_file(const std::filesystem::path& folder, const std::string& backbone,
+                                           const std::string& layer);
+
 /// The first stage: features of every view, in features-<backbone>[-<layer>].h5, and of every turn of the top views, in
 /// features-<backbone>[-<layer>]-turned.h5. Features, and the weights of a
 /// backbone, are read or made once, when a later stage first asks for them. The layer "" is the pooled output.
@@ -24,9 +31,6 @@ class FeaturesStage {
 
   const Features& features(const std::string& backbone, const std::string& layer);
   const BackboneWithOrigin& backbone(const std::string& name, const std::string& layer);
-  /// The files of features() and turned_features().
-  std::filesystem::path file(const std::string& backbone, const std::string& layer) const;
-  std::filesystem::path turned_file(const std::string& backbone, const std::string& layer) const;
   /// The fingerprint that features() have. Loads the backbone, but not the features.
   std::string fingerprint(const std::string& backbone, const std::string& layer);
   /// Features of every turn of the top views (train/turned_features.h).

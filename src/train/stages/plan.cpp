@@ -69,7 +69,8 @@ double seconds_of_view(const Run& run, const BackboneWithOrigin& source) {
 PlannedStage features_of(const Run& run, FeaturesStage& features, const std::string& backbone,
                          const std::string& layer) {
   PlannedStage planned{.stage = "features of " + backbone, .work = joined(run.dataset.views.size(), " images")};
-  planned.is_made = stored_fingerprint(features.file(backbone, layer)) == features.fingerprint(backbone, layer);
+  planned.is_made =
+      stored_fingerprint(features_file(run.folder, backbone, layer)) == features.fingerprint(backbone, layer);
   if (!planned.is_made)
     planned.seconds =
         seconds_of_view(run, features.backbone(backbone, layer)) * static_cast<double>(run.dataset.views.size());
@@ -81,7 +82,7 @@ PlannedStage turned_features_of(const Run& run, FeaturesStage& features) {
   const Index images = static_cast<Index>(run.dataset.poses.size()) * frame::kTurns;
   PlannedStage planned{.stage = "turned features of " + sv_net.backbone, .work = joined(images, " images")};
   const BackboneWithOrigin& source = features.backbone(sv_net.backbone, sv_net.layer);
-  planned.is_made = stored_fingerprint(features.turned_file(sv_net.backbone, sv_net.layer)) ==
+  planned.is_made = stored_fingerprint(turned_features_file(run.folder, sv_net.backbone, sv_net.layer)) ==
                     turned_features_origin(source, run.dataset_fingerprint).input_fingerprint;
   if (!planned.is_made) planned.seconds = seconds_of_view(run, source) * static_cast<double>(images);
   return planned;

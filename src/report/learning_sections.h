@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+
+#include "report/run_report.h"
+
+// The sections about what lies behind the results, as markup.
+namespace svnet::report {
+
+/// Curves of the training, or why there are none.
+std::string training_html(const RunReport& report);
+
+/// How the scores of each category are distributed.
+std::string scores_html(const RunReport& report);
+
+/// Maps of the features of top views and of chosen views; nothing if there is none.
+std::string map_html(const RunReport& report);
+
+/// The time of each stage; nothing if it is not known.
+std::string times_html(const RunReport& report);
+
+}  // namespace svnet::report
