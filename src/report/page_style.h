@@ -36,7 +36,7 @@ dl.facts{display:grid;grid-template-columns:minmax(8rem,max-content) 1fr;gap:.25
 max-width:60rem;font-size:.9375rem}
 dl.facts dt{color:var(--soft)}dl.facts dd{margin:0}
 .scroll{overflow-x:auto;margin:0 0 1.5rem}
-table{border-collapse:collapse;font-size:.9375rem}
+table{border-collapse:collapse;font-size:.9375rem;overflow-wrap:normal}
 caption{text-align:left;color:var(--soft);font-size:.875rem;padding-bottom:.5rem}
 th,td{padding:.3rem .75rem .3rem 0;text-align:right;vertical-align:top;font-weight:400}
 thead th{color:var(--soft);border-bottom:1px solid var(--line);vertical-align:bottom}
@@ -44,6 +44,7 @@ th:first-child,td.word,th.word{text-align:left}
 tbody tr+tr>*{border-top:1px solid var(--line)}
 tr.group th{font-weight:600;padding-top:1rem}
 tr.svnet>*{font-weight:600;color:var(--accent)}
+td{white-space:nowrap}td.word{white-space:normal}
 td small{display:block;color:var(--soft);font-weight:400;white-space:nowrap;font-size:.75rem}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,20.5rem),1fr));gap:1.5rem 2rem;margin:0 0 1.5rem}
 figure{margin:0}
@@ -88,7 +89,8 @@ td img{display:block;width:72px;height:auto;border-radius:.2rem}
 :target{outline:3px solid var(--accent);outline-offset:4px}
 @media (max-width:30rem){h1{font-size:1.55rem}section{margin:2.5rem 0}.summary{font-size:1.0625rem}
 dl.facts{grid-template-columns:1fr;gap:0}dl.facts dd{margin:0 0 .5rem}
-.maps{gap:0}.pose{padding:.75rem}td img{width:56px}th,td{padding-right:.6rem}}
+.maps{gap:0}.maps svg text{font-size:15px}.maps svg .title{font-size:17px}.maps svg text.ring{font-size:13px}
+.pose{padding:.75rem}td img{width:56px}th,td{padding-right:.6rem}}
 @media print{nav{display:none}section{break-inside:avoid}}
 )";
 

@@ -162,6 +162,7 @@ std::string colour_bar(const ScoreRange& range) {
                                     {"y", coordinate(kY)},
                                     {"width", coordinate(kStep + 0.3)},
                                     {"height", "9"},
+                                    {"shape-rendering", "crispEdges"},
                                     {"fill", hex(view::scale_colour((i + 0.5) / kSteps))}});
   return inner + svg_text(kLeft - 6, kY + 9, number(range.low, 2), "end", "tick") +
          svg_text(kLeft + 126, kY + 9, number(range.high, 2), "start", "tick");

@@ -21,15 +21,15 @@ std::string angles(const ShownView& view) { return joined("θ ", view.theta_deg,
 
 std::string score_words(const ShownView& view) {
   if (!std::isfinite(view.score)) return "not known";
-  return number(view.score, 2) + (view.standard_error > 0 ? " ± " + number(view.standard_error, 2) : "");
+  return number(view.score, 2) +
+         (view.standard_error > 0 ? " ± " + number(view.standard_error, view.standard_error < 0.005 ? 3 : 2) : "");
 }
 
 std::string image_html(const Picture& picture, const std::string& alternative) {
   return empty_element("img", {{"src", "data:image/jpeg;base64," + base64(picture.jpeg)},
                                {"alt", alternative},
                                {"width", std::to_string(picture.width)},
-                               {"height", std::to_string(picture.height)},
-                               {"loading", "lazy"}});
+                               {"height", std::to_string(picture.height)}});
 }
 
 /// The object's axis over an image of the top view: right is azimuth 180°, down is 90°.
@@ -71,8 +71,8 @@ std::string shots_html(const ShownPose& pose) {
         element("div", {{"class", "shot"}},
                 image_html((*pose.pictures)[picture], joined(what, " of ", pose_name(pose), ": ", angles(shown))) +
                     overlay) +
-            element("figcaption", element("strong", escaped(what)) + escaped(": " + score_words(shown)) +
-                                      empty_element("br", {}) + escaped(angles(shown))));
+            element("figcaption", element("strong", escaped(what)) + empty_element("br", {}) +
+                                      escaped(score_words(shown)) + empty_element("br", {}) + escaped(angles(shown))));
   };
   std::string inner = shot(0, "Top view", pose.top, pose.axis ? axis_overlay(*pose.axis, (*pose.pictures)[0]) : "") +
                       shot(1, "SV-net's choice", pose.chosen, "");
