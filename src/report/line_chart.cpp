@@ -9,7 +9,7 @@
 namespace svnet::report {
 namespace {
 
-constexpr double kChartHeight = 208, kChartTop = 34, kChartBottom = 178, kChartLeft = 44, kChartRight = 262,
+constexpr double kChartHeight = 208, kChartTop = 34, kChartBottom = 178, kChartLeft = 44, kChartRight = 236,
                  kLabelGap = 14;
 
 struct EndLabel {
@@ -63,7 +63,7 @@ std::string line_chart(const LineChart& chart) {
     if (points.empty()) continue;
     const std::string tone = "c" + std::to_string(l % 8);
     inner += empty_element("polyline", {{"points", points}, {"class", "curve stroke-" + tone}});
-    labels.push_back({shortened(line.label + " " + number(last_value), 15), "fill-" + tone, y.place(last_value) + 4});
+    labels.push_back({shortened(line.label + " " + number(last_value), 18), "fill-" + tone, y.place(last_value) + 4});
     alternative += " " + line.label + ": from " + number(first_value) + " to " + number(last_value) + ".";
   }
   spread(labels);

@@ -12,9 +12,8 @@ std::string page_html(const Page& page) {
   for (const Section& section : page.sections) {
     if (section.inner.empty()) continue;
     links += element("li", element("a", {{"href", "#" + section.id}}, escaped(section.title)));
-    sections += element("section", {{"id", section.id}, {"aria-labelledby", section.id + "-title"}},
-                        element("h2", {{"id", section.id + "-title"}}, escaped(section.title)) + "\n" + section.inner) +
-                "\n";
+    sections +=
+        element("section", {{"id", section.id}}, element("h2", escaped(section.title)) + "\n" + section.inner) + "\n";
   }
   const std::string head = empty_element("meta", {{"charset", "utf-8"}}) +
                            empty_element("meta", {{"name", "viewport"}, {"content", "width=device-width"}}) +
@@ -33,7 +32,7 @@ std::string page_html(const Page& page) {
 std::string how_to_read(const std::string& text) { return element("p", {{"class", "how"}}, escaped(text)) + "\n"; }
 
 std::string table_html(const std::string& label, const std::string& inner) {
-  return element("div", {{"class", "scroll"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", label}},
+  return element("div", {{"class", "scroll"}, {"tabindex", "0"}, {"role", "region"}, {"aria-label", "Table: " + label}},
                  element("table", inner)) +
          "\n";
 }

@@ -14,7 +14,7 @@
 namespace svnet::report {
 namespace {
 
-constexpr double kPolarWidth = 240, kPolarHeight = 292, kCentreX = 120, kCentreY = 140, kPolarRadius = 88;
+constexpr double kPolarWidth = 264, kPolarHeight = 292, kCentreX = 132, kCentreY = 140, kPolarRadius = 88;
 constexpr double kWidestSector_deg = 45, kLowestStep_deg = 15;
 
 struct PolarPoint {
@@ -155,7 +155,7 @@ std::string polar_labels(const PolarMap& map, const Cells& cells) {
 
 std::string colour_bar(const ScoreRange& range) {
   constexpr int kSteps = 24;
-  constexpr double kLeft = 60, kY = 268, kStep = 120.0 / kSteps;
+  constexpr double kLeft = 72, kY = 268, kStep = 120.0 / kSteps;
   std::string inner;
   for (int i = 0; i < kSteps; ++i)
     inner += empty_element("rect", {{"x", coordinate(kLeft + i * kStep)},

@@ -107,7 +107,8 @@ std::string table_section(const Table& table) {
             leads;
   html += how_to_read(joined(
       "Each selector chooses one view per object, and the views are clustered; 1 is the best value. ",
-      table.held_out ? "SV-net never saw these categories. " : "SV-net, or the scores, have seen these categories. ",
+      table.held_out ? "SV-net never saw these categories. "
+                     : "The scores and SV-net were made with these categories. ",
       "Small figures are 95 % intervals over categories: they are wide because some categories are harder than others, "
       "and the differences between selectors are surer than they look."));
   html += means_html(table);

@@ -57,6 +57,8 @@ const std::vector<Room> kRooms{
     {"train/stages",
      {"base", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
       "train"}},
+    {"report",
+     {"base", "image", "semantics", "view", "frame", "data", "io/*", "train/config", "train", "train/stages"}},
 };
 
 /// Whether `path` is the room or lies in it.

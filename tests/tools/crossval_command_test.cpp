@@ -1,53 +1,12 @@
 // svnet-crossval, and svnet-train, svnet-eval and svnet-info for models in the object's own frame.
-#include <algorithm>
 #include <catch2/catch.hpp>
-#include <nlohmann/json.hpp>
 
-#include "bar_dataset.h"
-#include "shell.h"
+#include "bar_place.h"
 
 using namespace svnet;
 using Catch::Contains;
 
 namespace {
-
-constexpr const char* kConfig = R"(preset: best
-seed: 3
-dataset:
-  root: data
-scores:
-  backbone: tiny_xception
-  problems: 300
-  rounds: 0
-  min_categories: 2
-evaluation:
-  problems: 60
-)";
-
-/// A folder with the dataset of bars and a configuration, and commands that run in it.
-class BarPlace {
- public:
-  BarPlace() {
-    write_bar_dataset(folder.path() / "data", true);
-    folder.write("config.yaml", kConfig);
-  }
-  Ran run(const std::string& command) const {
-    return run_shell(folder.path(), "export PATH=" PROGRAMS ":$PATH && " + command);
-  }
-  /// Requires exit 0 and an empty stderr.
-  std::string output_of(const std::string& command) const {
-    const Ran ran = run(command);
-    INFO(command << "\n" << ran.err);
-    REQUIRE(ran.status == 0);
-    REQUIRE(ran.err.empty());
-    return ran.out;
-  }
-  nlohmann::json json(const std::string& file) const {
-    return nlohmann::json::parse(file_contents(folder.path() / file));
-  }
-
-  TemporaryFolder folder;
-};
 
 const std::string kCrossval = "svnet-crossval config.yaml --threads 1 --output run ";
 
@@ -104,14 +63,7 @@ TEST_CASE("svnet-crossval takes folds by name, and varies keys") {
 TEST_CASE("svnet-crossval says what is wrong before it works") {
   const BarPlace place;
   CHECK_THAT(place.output_of("svnet-crossval --help"), Contains("--folds") && Contains("--sweep KEY=A,B"));
-  const auto error_of = [&](const std::string& command) {
-    const Ran ran = place.run(command);
-    INFO(command);
-    CHECK(ran.status == 1);
-    CHECK(ran.out.empty());
-    CHECK(std::count(ran.err.begin(), ran.err.end(), '\n') == 1);
-    return ran.err;
-  };
+  const auto error_of = [&](const std::string& command) { return place.error_of(command); };
   CHECK_THAT(error_of(kCrossval + "--quiet --fold awl,bra"),
              Contains("--fold") && Contains("'bra'") && Contains("'bar'"));
   CHECK_THAT(error_of(kCrossval + "--quiet --fold awl,bar --fold bar"), Contains("'bar' is named twice"));
