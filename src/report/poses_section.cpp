@@ -1,5 +1,6 @@
 #include "report/poses_section.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <set>
@@ -12,6 +13,8 @@
 
 namespace svnet::report {
 namespace {
+
+constexpr std::size_t kMostRows = 2000;  // so that the page stays small
 
 std::string pose_name(const ShownPose& pose) {
   return pose.category + ", object " + pose.object + ", pose " + pose.pose;
@@ -171,13 +174,14 @@ std::string pose_table_html(const RunReport& report, Ids& ids) {
     if (pose.axis) named.insert(object_key(pose));
   std::string html, rows;
   double chosen = 0, top = 0, count = 0;
-  for (std::size_t p = 0; p < report.poses.size(); ++p) {
+  const std::size_t shown = std::min(report.poses.size(), kMostRows);
+  for (std::size_t p = 0; p < shown; ++p) {
     const ShownPose& pose = report.poses[p];
     rows += table_row(pose, named.insert(object_key(pose)).second ? ids.make(object_key(pose)) : "");
     if (const double a = pose.views[pose.chosen].score, b = pose.views[pose.top].score;
         std::isfinite(a) && std::isfinite(b))
       chosen += a, top += b, ++count;
-    if (p + 1 < report.poses.size() && report.poses[p + 1].category == pose.category) continue;
+    if (p + 1 < shown && report.poses[p + 1].category == pose.category) continue;
     html += category_html(pose.category, rows, chosen / count, top / count);
     rows.clear();
     chosen = top = count = 0;
@@ -187,7 +191,10 @@ std::string pose_table_html(const RunReport& report, Ids& ids) {
              "Open a category to see every pose: the view that SV-net chose, and the true scores of the top view, of "
              "this choice, of the best view, and of a random view on average. The first pose of each object has "
              "pictures.") +
-         html;
+         html +
+         (shown < report.poses.size() ? how_to_read(joined("The first ", shown, " of ", report.poses.size(),
+                                                           " poses are listed; predictions.json has all."))
+                                      : "");
 }
 
 }  // namespace svnet::report

@@ -17,11 +17,11 @@ std::string count_words(std::size_t count, const char* one, const char* many) {
 
 std::string warning_html(const RunReport& report) {
   if (report.random_backbones.empty()) return "";
-  return element("p", {{"class", "warning"}},
-                 element("strong", escaped("Random weights: " + joined_with(", ", report.random_backbones) +
-                                           " was not trained.")) +
-                     escaped(" The scores then say little about what objects are. Take nothing below for a result; "
-                             "name a folder of weights by weights.folder and run it again.")) +
+  return element(
+             "p", {{"class", "warning"}},
+             element("strong", escaped("Random weights: " + joined_with(", ", report.random_backbones) + ".")) +
+                 escaped(" A backbone that was not trained knows little of what objects are. Take nothing below for a "
+                         "result; name a folder of weights by weights.folder and run it again.")) +
          "\n";
 }
 

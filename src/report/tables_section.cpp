@@ -11,6 +11,8 @@
 namespace svnet::report {
 namespace {
 
+constexpr std::size_t kMostOpenFolds = 12;
+
 std::string figure(const std::string& svg_markup) {
   return svg_markup.empty() ? "" : element("figure", svg_markup) + "\n";
 }
@@ -90,11 +92,14 @@ std::string folds_html(const RunReport& report) {
   std::string head;
   for (const char* title : {"Held out", "Spearman", "Regret", "Better than top", "Better than random"})
     head += element("th", {{"scope", "col"}}, title);
+  std::string table = table_html("Figures of folds", element("thead", element("tr", head)) + element("tbody", body));
+  if (report.folds.size() > kMostOpenFolds)
+    table = element("details", element("summary", escaped(joined(report.folds.size(), " folds"))) + table) + "\n";
   return element("h3", "Fold by fold") + "\n" +
          how_to_read(
              "Each line is about categories that were held out together. Spearman says how well predicted scores order "
              "the views of a pose (1: as the true scores), regret how far the chosen view is below the best one.") +
-         table_html("Figures of folds", element("thead", element("tr", head)) + element("tbody", body));
+         table;
 }
 
 std::string table_section(const Table& table) {

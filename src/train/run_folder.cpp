@@ -32,7 +32,7 @@ bool is_by_hand(const fs::path& config) {
 bool is_named_as_result(const fs::path& file) {
   const std::string name = file.filename().string(), extension = file.extension().string();
   return name == "model.safetensors" || name == "metrics.csv" || name == "scores.h5" || name == "evaluation.json" ||
-         name == "crossval.json" || name == "views.png" ||
+         name == "crossval.json" || name == "predictions.json" || name == "report.html" || name == "views.png" ||
          ((name.starts_with("features-") || name.starts_with("scores-")) && extension == ".h5") ||
          (name.starts_with("checkpoint-") && extension == ".safetensors");
 }

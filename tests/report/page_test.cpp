@@ -46,7 +46,7 @@ TEST_CASE("random weights are the first thing that the page says") {
   CHECK_THAT(report_html(report), !Contains("Random weights"));
   report.random_backbones = {"vgg19"};
   const std::string html = report_html(report);
-  CHECK(html.find("Random weights: vgg19 was not trained.") < html.find("SV-net learnt from"));
+  CHECK(html.find("Random weights: vgg19.") < html.find("SV-net learnt from"));
 }
 
 TEST_CASE("the page stands alone: it has no scripts and names nothing outside") {
