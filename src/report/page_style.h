@@ -44,7 +44,7 @@ th:first-child,td.word,th.word{text-align:left}
 tbody tr+tr>*{border-top:1px solid var(--line)}
 tr.group th{font-weight:600;padding-top:1rem}
 tr.svnet>*{font-weight:600;color:var(--accent)}
-td{white-space:nowrap}td.word{white-space:normal}
+td{white-space:nowrap}td.word{white-space:normal}td.left{text-align:left}
 td small{display:block;color:var(--soft);font-weight:400;white-space:nowrap;font-size:.75rem}
 .plots{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(100%,20.5rem),1fr));gap:1.5rem 2rem;margin:0 0 1.5rem}
 figure{margin:0}

@@ -40,7 +40,7 @@ class Cells {
     for (const PolarView& view : views) rings_[view.pose.phi_deg].insert(azimuth(view));
     lowest_deg_ = rings_.begin()->first;
     const double step = rings_.size() > 1 ? std::next(rings_.begin())->first - lowest_deg_ : kLowestStep_deg;
-    lowest_deg_ = std::max(0.0, lowest_deg_ - std::min(step, 2 * kLowestStep_deg) / 2);
+    lowest_deg_ -= std::min(step, 2 * kLowestStep_deg) / 2;
     if (lowest_deg_ > 89) lowest_deg_ = 75;
   }
 

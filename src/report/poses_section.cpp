@@ -56,7 +56,7 @@ std::string axis_overlay(const frame::ObjectAxis& axis, const Picture& picture) 
 std::string axis_words(const frame::ObjectAxis& axis) {
   switch (axis.kind) {
     case frame::AxisKind::found:
-      return "Its axis points to azimuth " + number(axis.direction_deg, 0) + "°.";
+      return "Its axis points to azimuth " + std::to_string(std::lround(axis.direction_deg) % 360) + "°.";
     case frame::AxisKind::round:
       return "No axis was found: it is about as wide as long.";
     case frame::AxisKind::unclear:
@@ -125,12 +125,12 @@ std::string table_row(const ShownPose& pose, const std::string& id) {
   const auto view_cell = [&](const ShownView& view, std::size_t picture, const char* what) {
     std::string inner = escaped(number(view.score, 2));
     if (pose.pictures) inner = image_html((*pose.pictures)[picture], joined(what, " of ", pose_name(pose))) + inner;
-    return element("td", {{"class", "word"}}, inner);
+    return element("td", {{"class", "left"}}, inner);
   };
   return element("tr", id.empty() ? Attributes{} : Attributes{{"id", id}},
                  element("th", {{"scope", "row"}}, escaped(pose.object)) +
-                     element("td", {{"class", "word"}}, escaped(pose.pose)) +
-                     element("td", {{"class", "word"}}, escaped(angles(chosen))) + view_cell(top, 0, "Top view") +
+                     element("td", {{"class", "left"}}, escaped(pose.pose)) +
+                     element("td", {{"class", "left"}}, escaped(angles(chosen))) + view_cell(top, 0, "Top view") +
                      view_cell(chosen, 1, "SV-net's choice") +
                      (pose.best ? view_cell(pose.views[*pose.best], 2, "Best view") : element("td", "–")) +
                      element("td", escaped(number(pose.mean_score, 2)))) +
