@@ -185,7 +185,7 @@ RunReport collect(const train::Config& config, const ViewDataset& dataset, const
   add_pictures(dataset, of_dataset, config.sv_net.depth, report.poses, parallel);
   report.scores = category_scores(dataset, predictions, report.poses);
   if (!report.cross_validation) report.curves = read_curves(folder);
-  report.times = read_times(folder);
+  report.times = train::read_stage_times(folder);
   return report;
 }
 

@@ -99,7 +99,7 @@ std::string times_html(const RunReport& report) {
   if (report.times.empty()) return "";
   std::string body;
   double sum = 0;
-  for (const StageTime& time : report.times) {
+  for (const train::StageTime& time : report.times) {
     sum += time.seconds;
     body += element("tr", element("th", {{"scope", "row"}}, escaped(time.stage)) +
                               element("td", escaped(seconds_words(time.seconds))) +

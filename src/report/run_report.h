@@ -11,6 +11,7 @@
 #include "report/estimate.h"
 #include "report/scatter.h"
 #include "train/metrics.h"
+#include "train/stage_times.h"
 #include "train/within_pose.h"
 
 // All that the page of a run shows, as plain values. collect.h makes it of a run folder, write_report.h shows it.
@@ -81,12 +82,6 @@ struct FeatureMap {
   double top_silhouette = 0, chosen_silhouette = 0;  ///< mean silhouette in all dimensions
 };
 
-struct StageTime {
-  std::string stage;
-  double seconds = 0;
-  bool reused = false;
-};
-
 struct FoldFigures {
   std::vector<std::string> held_out;
   train::WithinPose within_pose;
@@ -107,7 +102,7 @@ struct RunReport {
   std::optional<TrainingCurves> curves;
   std::vector<CategoryScores> scores;
   std::optional<FeatureMap> map;
-  std::vector<StageTime> times;
+  std::vector<train::StageTime> times;
 };
 
 }  // namespace svnet::report

@@ -205,18 +205,4 @@ std::optional<TrainingCurves> read_curves(const fs::path& folder) {
   return curves;
 }
 
-std::vector<StageTime> read_times(const fs::path& folder) {
-  const fs::path file = folder / "timings.csv";
-  if (!fs::exists(file)) return {};
-  const std::vector<std::string> lines = lines_of(file);
-  std::vector<StageTime> times;
-  for (std::size_t line = 1; line < lines.size(); ++line) {
-    const std::vector<std::string> cells = cells_of(lines[line]);
-    check(cells.size() == 3, file.string(), ", line ", line + 1, ": has ", cells.size(),
-          " cells, expected stage,seconds,reused; remove the file to do without it");
-    times.push_back({cells[0], cell_number(file, line + 1, cells[1]), cells[2] == "1"});
-  }
-  return times;
-}
-
 }  // namespace svnet::report

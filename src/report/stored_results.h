@@ -34,7 +34,4 @@ std::vector<FoldFigures> read_folds(const std::filesystem::path& folder);
 /// metrics.csv.
 std::optional<TrainingCurves> read_curves(const std::filesystem::path& folder);
 
-/// timings.csv; empty if there is no such file.
-std::vector<StageTime> read_times(const std::filesystem::path& folder);
-
 }  // namespace svnet::report

@@ -92,10 +92,9 @@ TEST_CASE("predictions come back as they were written, and belong to one dataset
              Contains("is about 2 views, the dataset photos has 1"));
 }
 
-TEST_CASE("curves and times are optional, and their damage is an error") {
+TEST_CASE("curves are optional, and their damage is an error") {
   const TemporaryFolder folder;
   CHECK_FALSE(read_curves(folder.path()));
-  CHECK(read_times(folder.path()).empty());
   folder.write("metrics.csv", "epoch,step,learning_rate,loss,validation_loss\n1,10,0.1,0.5,\n2,20,0.1,0.25,0.75\n");
   const auto curves = read_curves(folder.path());
   REQUIRE(curves);
@@ -106,16 +105,6 @@ TEST_CASE("curves and times are optional, and their damage is an error") {
   folder.write("metrics.csv", "epoch,loss\n1,much\n");
   CHECK_THAT(error_of([&] { static_cast<void>(read_curves(folder.path())); }),
              Contains("metrics.csv, line 2: 'much' is not a number"));
-
-  folder.write("timings.csv", "stage,seconds,reused\nfeatures mobilenet_v2,12.3,0\nSV-net,.8,1\n");
-  const auto times = read_times(folder.path());
-  REQUIRE(times.size() == 2);
-  CHECK(times[0].stage == "features mobilenet_v2");
-  CHECK(times[1].seconds == 0.8);
-  CHECK(times[1].reused);
-  folder.write("timings.csv", "stage,seconds,reused\nfeatures\n");
-  CHECK_THAT(error_of([&] { static_cast<void>(read_times(folder.path())); }),
-             Contains("timings.csv, line 2: has 1 cells"));
 }
 
 TEST_CASE("folds are read from crossval.json") {
