@@ -55,7 +55,7 @@ const std::vector<Room> kRooms{
     {"train",
      {"base", "image", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "train/config"}},
     {"train/stages",
-     {"base", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
+     {"base", "image", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
       "train"}},
     {"report",
      {"base", "image", "semantics", "view", "frame", "data", "io/*", "train/config", "train", "train/stages"}},
