@@ -21,6 +21,16 @@ fs::path config_of(const fs::path& run) {
   return config;
 }
 
+/// Throws Error if the page would replace a file of a run other than its page.
+void check_output(const fs::path& output, const std::vector<fs::path>& runs) {
+  if (output.empty()) return;
+  std::vector<fs::path> files;
+  for (const fs::path& run : runs)
+    for (const auto& entry : fs::directory_iterator(run))
+      if (entry.path().filename() != "report.html") files.push_back(entry.path());
+  io::check_can_be_written(output, files, io::Streams::allowed);
+}
+
 fs::path one_run(const fs::path& run, const std::vector<std::string>& overrides, const fs::path& output) {
   const train::Config config = train::read_config(config_of(run), overrides);
   check(fs::exists(config.dataset.root), config.dataset.root.string(),
@@ -31,10 +41,7 @@ fs::path one_run(const fs::path& run, const std::vector<std::string>& overrides,
 
 fs::path side_by_side(const std::vector<fs::path>& runs, const fs::path& output) {
   std::vector<report::ComparedRun> compared;
-  for (const fs::path& run : runs) {
-    static_cast<void>(config_of(run));
-    compared.push_back(report::read_compared_run(run));
-  }
+  for (const fs::path& run : runs) compared.push_back(report::read_compared_run(run));
   report::name_apart(compared, runs);
   io::write_atomically(output, report::comparison_html(compared));
   return output;
@@ -63,9 +70,11 @@ int main(int argc, char** argv) {
   command.add_flag("--open", open, "Shows the page in a browser");
   return command.run(argc, argv, [&](Console& console) {
     if (runs.size() > 1 && !overrides.empty()) wrong_usage("--set is for a single run");
+    for (const fs::path& run : runs) static_cast<void>(config_of(run));
+    check_output(output, runs);
     const fs::path page = runs.size() == 1 ? one_run(runs.front(), overrides, output)
                                            : side_by_side(runs, output.empty() ? "comparison.html" : output);
-    console.result("Report: " + page.string());
+    if (!io::is_standard_output(page)) console.result("Report: " + page.string());
     if (open) show_in_browser(page, console);
   });
 }

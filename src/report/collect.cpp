@@ -165,7 +165,6 @@ RunReport collect(const train::Config& config, const ViewDataset& dataset, const
       std::none_of(report.tables.begin(), report.tables.end(), [](const Table& table) { return !table.held_out; });
   const bool fitted = config.sv_net.frame != frame::FrameChoice::camera;
   report.closed_form = fitted && config.sv_net.head == train::HeadChoice::ridge;
-  report.drawn_start = !report.closed_form;
   report.target = name_of(config.sv_net.target);
   report.random_backbones = random_backbones(folder);
   report.settings = settings_of(config, dataset);

@@ -159,7 +159,7 @@ std::string pose_figures_html(const RunReport& report, Ids& ids) {
   if (figures.empty()) return "";
   return how_to_read(joined(
              "The maps show the half-sphere of camera poses as it lies in the top image: the centre is the top view, "
-             "the rim the lowest elevation φ, and the figures around it are azimuths θ. Yellow is the highest score of "
+             "the rim the lowest elevation φ, and the numbers around it are azimuths θ. Yellow is the highest score of "
              "the map, dark blue the lowest; predicted scores have a scale of their own.")) +
          how_to_read(joined("A white dot marks SV-net's choice, a solid green outline the view with the best true ",
                             report.target,

@@ -92,12 +92,12 @@ std::string seed_words(const RunReport& report) {
   }
   std::string text = "What another seed would change: it would draw other clustering problems";
   if (report.cross_validation) text += ", other folds";
-  if (report.drawn_start) text += ", and other random numbers to begin training with";
+  if (!report.closed_form) text += ", and other random numbers to begin training with";
   text += ".";
   if (error > 0)
     text += joined(" Other problems alone move a mean over ", problems, " problems by about ", number(error),
                    " (its standard error).");
-  if (!report.drawn_start)
+  if (report.closed_form)
     text += " The head is fitted in closed form, so the same scores give the same SV-net.";
   else
     text +=

@@ -14,7 +14,7 @@ std::string report_html(const RunReport& report) {
   const std::string figures = pose_figures_html(report, ids);  // before the table, which names the objects left
   Page page{.title = "Views that SV-net chose: " + report.name, .lead = summary_html(report), .sections = {}};
   page.sections = {{"results", "Results", tables_html(report)},
-                   {"poses", "A dozen poses", figures},
+                   {"poses", "Poses in detail", figures},
                    {"objects", "Every held-out object", pose_table_html(report, ids)},
                    {"training", "Training", training_html(report)},
                    {"scores", "Scores by category", scores_html(report)},

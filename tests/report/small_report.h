@@ -10,7 +10,6 @@ inline RunReport small_report() {
   RunReport report;
   report.name = "demo";
   report.closed_form = true;
-  report.drawn_start = false;
   report.target = "individual";
   report.training_categories = 3;
   report.held_out_categories = 2;

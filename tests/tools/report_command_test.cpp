@@ -55,7 +55,7 @@ TEST_CASE("a run that holds nothing out has a page that says so") {
   place.output_of("svnet-train config.yaml --output run --threads 1 --quiet");
   place.output_of("svnet-eval run --threads 1 --quiet");
   CHECK_THAT(file_contents(place.folder.path() / "run/report.html"),
-             Contains("Fewer than two categories were held out") && !Contains("A dozen poses"));
+             Contains("Fewer than two categories were held out") && !Contains("Poses in detail"));
 }
 
 TEST_CASE("svnet-report shows several runs side by side") {
@@ -88,6 +88,9 @@ TEST_CASE("svnet-report names what is missing or damaged, and leaves the page as
   place.output_of("cp data/awl/1/1/90_90.png kept; head -c 40 kept >data/awl/1/1/90_90.png");
   CHECK_THAT(place.error_of("svnet-report run"), Contains("awl/1/1/90_90.png"));
   place.output_of("mv kept data/awl/1/1/90_90.png");
+  CHECK_THAT(place.error_of("svnet-report run --output run/config.yaml"), Contains("run/config.yaml"));
+  CHECK_THAT(place.error_of("svnet-report run --output none/page.html"), Contains("none/page.html"));
+  CHECK(place.output_of("svnet-report run --quiet --output /dev/stdout | cat") == page);
   CHECK_THAT(place.error_of("svnet-report run empty"), Contains("empty: is no run folder"));
   CHECK_FALSE(std::filesystem::exists(place.folder.path() / "comparison.html"));
   CHECK(file_contents(place.folder.path() / "run/report.html") == page);

@@ -135,6 +135,7 @@ TEST_CASE("a fold can be judged by problems of its own categories") {
   const CrossValidation result = cross_validate(run, features, folds, FoldProblems::own_categories);
   REQUIRE(result.folds.size() == 20);
   CHECK(result.within_pose.poses == 20 * 6);
+  for (const double predicted : result.predicted) CHECK(std::isfinite(predicted));
   CHECK(result.table.problems == 200);
   // Problems of few categories are easier than those of all six.
   CHECK(fm(result.table, "rand") > fm(cross_validate(run, features, kFolds).table, "rand"));
@@ -150,6 +151,8 @@ TEST_CASE("every category is chosen by a model that never saw it, and the choice
   const CrossValidation result = cross_validate(run, features, kFolds);
   REQUIRE(result.folds.size() == 3);
   CHECK(result.within_pose.poses == 12);
+  REQUIRE(result.predicted.size() == run.dataset.views.size());
+  CHECK(best_views(run.dataset, result.predicted) == result.choices[4].view);
   const Scores all = io::read_scores(run.folder / "scores.h5");
   std::vector<double> chosen_by(run.dataset.views.size(), std::nan(""));
   for (std::size_t f = 0; f < kFolds.size(); ++f) {

@@ -129,6 +129,8 @@ TEST_CASE("tables say how far SV-net is ahead, with intervals, in text and JSON"
   CHECK(fm.at("low").get<double>() == Approx(table.differences.at("rand")[0][2][0].interval.low));
   CHECK(json.at("differences").at("held_out").at("mean").at("svnet-top").at("purity").at("high").is_number());
   CHECK(json.at("tables").at("held_out").at("line_ward").at("svnet").at("fm").at("standard_error").is_number());
+  CHECK(json.at("tables").at("held_out").at("line_ward").at("svnet").at("fm").at("low").get<double>() ==
+        Approx(table.cells[0][2][0].interval.low));
   const auto cells = nlohmann::json::parse(intervals_json(table).dump());
   CHECK(cells.at("line_single").at("rand").at("nmi").at("low").is_number());
 
