@@ -90,7 +90,7 @@ struct FoldFigures {
 struct RunReport {
   std::string name;  ///< of the run folder
   bool cross_validation = false;
-  bool closed_form = false;                   ///< whether the head is fitted without epochs and random numbers
+  bool closed_form = false;                   ///< whether the head is fitted without epochs, from no random start
   std::vector<std::string> random_backbones;  ///< those without trained weights
   std::vector<Setting> settings;
   Index training_categories = 0, held_out_categories = 0;

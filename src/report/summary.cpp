@@ -98,11 +98,14 @@ std::string seed_words(const RunReport& report) {
     text += joined(" Other problems alone move a mean over ", problems, " problems by about ", number(error),
                    " (its standard error).");
   if (report.closed_form)
-    text += " The head is fitted in closed form, so the same scores give the same SV-net.";
-  else
     text +=
-        " How much the training itself varies, one run cannot say: train with --set seed=N and compare the run "
-        "folders by svnet-report.";
+        " The head is fitted in closed form, from no random start; the seed draws only its scores and the categories "
+        "by "
+        "which its penalty is chosen.";
+  text +=
+      " How much SV-net's choices vary with the seed, one run cannot say: repeat it with --set seed=N and compare the "
+      "run "
+      "folders by svnet-report.";
   return text + " The intervals are about something else: how much other categories of the same kind would change.";
 }
 

@@ -37,7 +37,8 @@ TEST_CASE("the page says how sure the lead over random views is, and what anothe
                             "the interval excludes 0."));
   CHECK_THAT(html, Contains("this is not sure, as the interval includes 0"));
   CHECK_THAT(html, Contains("What another seed would change: it would draw other clustering problems."));
-  CHECK_THAT(html, Contains("The head is fitted in closed form, so the same scores give the same SV-net."));
+  CHECK_THAT(html, Contains("The head is fitted in closed form, from no random start"));
+  CHECK_THAT(html, Contains("one run cannot say: repeat it with --set seed=N"));
   CHECK_THAT(html, Contains("chosen view scores higher than the top view in 100 % of 6 poses"));
 }
 
