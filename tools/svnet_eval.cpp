@@ -1,21 +1,13 @@
 // svnet-eval: how well the views that SV-net chooses can be clustered.
-#include "base/parallel.h"
-#include "command/browser.h"
 #include "command/command.h"
 #include "config_option.h"
+#include "evaluate_run.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
-#include "report/collect.h"
 #include "train/config/config_file.h"
-#include "train/paper_figures.h"
-#include "train/stages/contact_sheet.h"
-#include "train/stages/evaluation.h"
-#include "train/stages/evaluation_events.h"
-#include "train/stages/held_out_scores.h"
+#include "train/selectors.h"
 #include "train/stages/model.h"
-#include "train/stages/predictions.h"
 #include "train/stages/scores.h"
-#include "train/view_targets.h"
 
 namespace {
 
@@ -94,36 +86,8 @@ int main(int argc, char** argv) {
                                     inference_options_from_environment());
     train::FeaturesStage features(run);
     const Model model = trained_model(run, features);
-    const std::vector<double> predicted = predicted_scores(run, features, model);
-    const Scores scores = scores_stage(run, features);
-    const train::EvaluationInputs inputs{features, scores, predicted};
-    const auto count = static_cast<std::uint64_t>(config.evaluation.problems);
-    const auto tables = evaluation_stage(run, inputs, count, json.empty() ? std::optional<fs::path>() : json);
     const bool prints = !io::is_standard_output(json);
-    const bool as_paper = train::holds_out_papers_categories(config);
-    const auto print = [&](const train::EvaluationTable& table, const std::string& title, train::Split split) {
-      console.result(table_text(table, title) + (as_paper ? paper_figures_text(table, split) : ""));
-    };
-    if (const auto held_out = tables.find("held_out"); prints && held_out != tables.end())
-      print(held_out->second, "Held-out categories", train::Split::held_out);
-    if (prints) {
-      print(tables.at("training"), "Training categories", train::Split::training);
-      console.result(columns_text(tables));
-    }
-    std::optional<semantics::SemanticScores> held_out_scores;
-    if (run.has_held_out_problems()) held_out_scores = train::held_out_scores(run, features, count);
-    if (held_out_scores) {
-      const fs::path sheet = contact_sheet_stage(run, predicted, *held_out_scores);
-      if (prints) console.result(joined("Views of held-out objects: ", sheet.string()));
-    }
-    write_evaluation_events(
-        run, tables, predicted,
-        held_out_scores ? target_scores(*held_out_scores, config.sv_net.target) : std::vector<double>());
-    report::write_predictions(
-        folder, run.dataset,
-        report::predictions_of(run, predicted, scores, held_out_scores ? &*held_out_scores : nullptr));
-    const fs::path page = report::write_report(run.config, run.dataset, folder, Parallel::shared());
-    if (prints) console.result(joined("Report: ", page.string()));
-    if (open) show_in_browser(page, console);
+    evaluate_run(run, features, model, scores_stage(run, features),
+                 {.json = json.empty() ? std::optional<fs::path>() : json, .prints = prints, .open = open}, console);
   });
 }

@@ -3,6 +3,7 @@
 #include "command/command.h"
 #include "io/files/atomic_file.h"
 #include "io/files/file_hash.h"
+#include "io/files/snapshot_path.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/dataset_notes.h"
@@ -78,9 +79,9 @@ int run(int argc, char** argv, Communicator& communicator) {
           for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
         if (communicator.is_root()) io::check_can_be_written(output, images_of(dataset));
         const FeaturesOrigin origin = features_origin(source, io::fingerprint(dataset, Parallel::shared()));
-        const Features features =
-            train::extract_features(source.backbone, dataset, origin, console.messages(), communicator);
-        if (communicator.is_root()) io::write_features(output, features);
+        const Features features = train::extract_features(source.backbone, dataset, origin, console.messages(),
+                                                          communicator, io::snapshot_path(output));
+        if (communicator.is_root()) train::write_made_features(output, features);
         console.result(joined(output.string(), ": ", features.count, " x ", features.dimension));
       },
       communicator);

@@ -87,11 +87,9 @@ int main(int argc, char** argv) {
       "from those that the model was trained on (distance, limit), and the share that it counts (trust)");
   command
       .add("--plot", plot,
-           "Writes a PNG image: the top image with the object's axis, beside it the half-sphere from above, with the "
-           "top "
-           "view in the centre and theta 0 to the right, counter-clockwise; dots from dark blue (lowest score) to "
-           "yellow, "
-           "the best ringed in red. With /dev/stdout no scores are printed")
+           "Writes a PNG image: the top image with the object's axis, and the half-sphere from above as it lies in the "
+           "top image, with the top view in the centre, theta 0 to the left and 90 down; dots from dark blue (lowest "
+           "score) to yellow, the best ringed in red. With /dev/stdout no scores are printed")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     if (!plot.empty()) check_can_be_written(plot, {model, image, depth_file, poses_file}, io::Streams::allowed);

@@ -1,6 +1,7 @@
 // svnet-train: images become features, features scores, scores train SV-net.
 #include "command/command.h"
 #include "command/progress_text.h"
+#include "evaluate_run.h"
 #include "io/views/dataset_folder.h"
 #include "mpi/mpi_communicator.h"
 #include "train/config/config_file.h"
@@ -34,7 +35,7 @@ int run(int argc, char** argv, Communicator& communicator) {
   std::filesystem::path config_file, output;
   std::vector<std::string> overrides;
   std::string resume = "auto";
-  bool dry = false;
+  bool dry = false, open = false;
   command.add("CONFIG", config_file, "The configuration; configs/paper.yaml explains every key").required();
   command.add("--set", overrides, "Sets a key of the configuration; may be given several times")
       .value_name("KEY=VALUE")
@@ -46,9 +47,11 @@ int run(int argc, char** argv, Communicator& communicator) {
       .one_of({"auto", "never"})
       .shows_default();
   command.add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
+  command.add_flag("--open", open, "Evaluates the model as svnet-eval does, and shows report.html in a browser");
   return command.run(
       argc, argv,
       [&](Console& console) {
+        if (open && communicator.size() > 1) wrong_usage("--open: several processes do not evaluate; use svnet-eval");
         const InferenceOptions inference = inference_options_from_environment();
         const train::Config config = train::read_config(config_file, overrides);
         ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
@@ -72,10 +75,11 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (communicator.is_root()) {
           for (const std::string& line : training_summary(run, features, scores, model)) console.line(line);
           console.line(run.has_held_out_problems()
-                           ? "svnet-eval " + output.string() + " compares them on held-out categories"
+                           ? "svnet-eval " + output.string() + " compares them on held-out categories, in a report"
                            : "svnet-crossval tells how well such a model chooses for categories that it never saw");
         }
         console.result((output / "model.safetensors").string());
+        if (open) evaluate_run(run, features, model, scores, {.open = true}, console);
       },
       communicator);
 }

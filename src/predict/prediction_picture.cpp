@@ -36,16 +36,19 @@ std::string fixed(double value, int digits) {
   return text;
 }
 
-/// The centred square of the image, turned by half a turn.
-Image turned_square(const Image& top) {
+/// The centred square of the image.
+Image square_of(const Image& top) {
   const Index side = std::min(top.height, top.width), above = (top.height - side) / 2, left = (top.width - side) / 2;
   Image square{side, side, std::vector<std::uint8_t>(static_cast<std::size_t>(3 * side * side))};
   cv::Mat3b to = matrix_of(square);
-  cv::rotate(matrix_of(top)(cv::Rect(static_cast<int>(left), static_cast<int>(above), static_cast<int>(side),
-                                     static_cast<int>(side))),
-             to, cv::ROTATE_180);
+  matrix_of(top)(
+      cv::Rect(static_cast<int>(left), static_cast<int>(above), static_cast<int>(side), static_cast<int>(side)))
+      .copyTo(to);
   return square;
 }
+
+/// Where an azimuth points in a top view: 0 to the left, 90 down (docs/camera-convention.md).
+cv::Point2d direction(double theta_deg) { return {-std::cos(theta_deg * kRadians), std::sin(theta_deg * kRadians)}; }
 
 void draw_axis(cv::Mat3b& picture, const frame::ObjectAxis& axis, const frame::Silhouette& silhouette) {
   double x = 0, y = 0, cells = 0;
@@ -57,21 +60,20 @@ void draw_axis(cv::Mat3b& picture, const frame::ObjectAxis& axis, const frame::S
         cells += 1;
       }
   const double pixels_per_half_cell = kSide_px / (2.0 * frame::kSide);
-  const cv::Point2d middle(kLeft_px + kSide_px / 2.0 - x / cells * pixels_per_half_cell,
-                           kTop_px + kSide_px / 2.0 - y / cells * pixels_per_half_cell);
-  // In the turned image azimuth 0 points to the right and 90 upwards.
-  const cv::Point2d along(std::cos(axis.direction_deg * kRadians), -std::sin(axis.direction_deg * kRadians));
+  const cv::Point2d middle(kLeft_px + kSide_px / 2.0 + x / cells * pixels_per_half_cell,
+                           kTop_px + kSide_px / 2.0 + y / cells * pixels_per_half_cell);
+  const cv::Point2d along = direction(axis.direction_deg);
   const double half = 0.5 * axis.length * kSide_px;
   for (const auto& [colour, width] : {std::pair{kHalo, 5}, {kAxis, 2}})
     cv::arrowedLine(picture, middle - half * along, middle + half * along, colour, width, cv::LINE_AA, 0, 0.06);
 }
 
 void draw_top_image(cv::Mat3b& picture, const Image& top, const DepthImage* depth) {
-  const Image square = resized_to_fit(turned_square(top), kSide_px);
+  const Image square = resized_to_fit(square_of(top), kSide_px);
   matrix_of(square).copyTo(picture(cv::Rect(kLeft_px, kTop_px, kSide_px, kSide_px)));
   const frame::Silhouette silhouette = depth != nullptr ? frame::silhouette_of(*depth) : frame::silhouette_of(top);
   const frame::ObjectAxis axis = frame::axis_of(silhouette);
-  std::string title = "from above, turned by 180 degrees; ";
+  std::string title = "the top image; ";
   switch (axis.kind) {
     case frame::AxisKind::found:
       title += "axis at azimuth " + fixed(axis.direction_deg, 0);
@@ -88,22 +90,14 @@ void draw_top_image(cv::Mat3b& picture, const Image& top, const DepthImage* dept
 }
 
 void draw_labels(cv::Mat3b& picture) {
-  const cv::Point centre(kPlotLeft_px + kSide_px / 2, kTop_px + kSide_px / 2);
-  for (int theta_deg = 0; theta_deg < 360; theta_deg += 90) {
-    const double angle = theta_deg * kRadians, radius = kRim_px + 16;
-    write(picture, std::to_string(theta_deg),
-          {centre.x + static_cast<int>(radius * std::cos(angle)),
-           centre.y + 5 - static_cast<int>(radius * std::sin(angle))},
-          kText, 0.45, Align::centre);
-  }
-  // Between the spokes at 0 and -45 degrees.
-  for (int phi_deg = 15; phi_deg < 90; phi_deg += 15) {
-    const double radius = kRim_px * (90 - phi_deg) / 90, angle = -22.5 * kRadians;
+  const cv::Point2d centre(kPlotLeft_px + kSide_px / 2.0, kTop_px + kSide_px / 2.0);
+  for (int theta_deg = 0; theta_deg < 360; theta_deg += 90)
+    write(picture, std::to_string(theta_deg), centre + (kRim_px + 16) * direction(theta_deg) + cv::Point2d(0, 5), kText,
+          0.45, Align::centre);
+  // Between the spokes at 135 and 180 degrees.
+  for (int phi_deg = 15; phi_deg < 90; phi_deg += 15)
     write(picture, std::to_string(phi_deg),
-          {centre.x + static_cast<int>(radius * std::cos(angle)),
-           centre.y + 4 - static_cast<int>(radius * std::sin(angle))},
-          kMuted, 0.38, Align::centre);
-  }
+          centre + kRim_px * (90 - phi_deg) / 90 * direction(157.5) + cv::Point2d(0, 4), kMuted, 0.38, Align::centre);
 }
 
 void draw_scale(cv::Mat3b& picture, double lowest, double highest) {
@@ -134,7 +128,8 @@ Image prediction_picture(const Image& top, const DepthImage* depth, std::span<co
                std::vector<std::uint8_t>(static_cast<std::size_t>(3 * kHeight_px * kWidth_px), 255)};
   cv::Mat3b picture = matrix_of(result);
   draw_top_image(picture, top, depth);
-  matrix_of(plot).copyTo(picture(cv::Rect(kPlotLeft_px, kTop_px, kSide_px, kSide_px)));
+  cv::Mat3b place = picture(cv::Rect(kPlotLeft_px, kTop_px, kSide_px, kSide_px));
+  cv::rotate(matrix_of(plot), place, cv::ROTATE_180);
   write(picture, "predicted score by azimuth (around) and elevation (from the rim)", {kPlotLeft_px, kTop_px - 14});
   draw_labels(picture);
   const auto [lowest, highest] = std::minmax_element(scores.begin(), scores.end());

@@ -7,10 +7,11 @@
 
 namespace svnet::predict {
 
-/// A prediction as a picture (624, 1232): at the left the top image with the object's axis, turned by half a turn so
-/// that azimuths run as at the right; at the right half_sphere_plot() with azimuths and elevations; then the scale of
-/// its colours; below, the best pose and its score beside the top view's, if that is among the poses. With `depth` the
-/// axis is that of what stands above the table. Throws Error as half_sphere_plot, and for an empty image.
+/// A prediction as a picture (624, 1232): at the left the top image with the object's axis; at the right the
+/// half-sphere of half_sphere_plot(), turned by half a turn so that it lies as in the top image (azimuth 0 to the left,
+/// 90 down), with azimuths and elevations; then the scale of its colours; below, the best pose and its score beside the
+/// top view's, if that is among the poses. With `depth` the axis is that of what stands above the table. Throws Error
+/// as half_sphere_plot, and for an empty image.
 Image prediction_picture(const Image& top, const DepthImage* depth, std::span<const view::CameraPose> poses,
                          std::span<const float> scores);
 

@@ -61,7 +61,8 @@ bool finished(const ClusteringProblems& problems, const ScoreOptions& options, c
          (options.target_error > 0 && exact_enough(problems, options, sums));
 }
 
-/// The expected number of problems; 0 if only target_error stops.
+}  // namespace
+
 std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreOptions& options) {
   std::uint64_t expected = options.problems;
   if (options.min_samples > 0) {
@@ -76,8 +77,6 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
   }
   return expected;
 }
-
-}  // namespace
 
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
                      Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& callbacks) {

@@ -23,6 +23,9 @@ struct ScoreOptions {
   ProblemScoring scoring() const { return {seed, singletons, clustering}; }
 };
 
+/// About how many problems a rule will stop after; 0 if only target_error stops.
+std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreOptions& options);
+
 /// Callbacks while scores are computed.
 struct ScoreProgress {
   const Messages* messages = nullptr;

@@ -8,8 +8,10 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "io/files/file_hash.h"
+#include "io/files/snapshot_path.h"
 #include "io/images/image_file.h"
 #include "io/models/backbone_file.h"
+#include "io/views/features_file.h"
 
 namespace svnet::train {
 using models::BackboneKind;
@@ -76,8 +78,15 @@ std::vector<float> extracted(const Extraction& e, const Messages& messages, Comm
   std::vector<float> rows(static_cast<std::size_t>(e.count * e.dimension));
   // Shares are whole batches, as they would be without a communicator.
   const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((e.count + e.batch - 1) / e.batch));
-  const Index first = static_cast<Index>(share.first) * e.batch;
+  const Index made = static_cast<Index>(e.made.size()) / e.dimension;
+  check((made == 0 && !e.keep) || communicator.size() == 1, "[features] several processes keep no rows");
+  std::ranges::copy(e.made, rows.begin());
+  const Index first = std::max(static_cast<Index>(share.first) * e.batch, made);
   const Index last = std::min(e.count, static_cast<Index>(share.last) * e.batch);
+  const auto keep = [&](Index end) {
+    if (e.keep) e.keep(std::span(rows).first(static_cast<std::size_t>(end * e.dimension)));
+  };
+  double kept_seconds = 0;
   Progress progress(messages, "features of " + e.network, std::max<Index>(last - first, 0));
   // The network has the shared pool. The future comes last: it waits for what the readers still do.
   Parallel readers(Parallel::shared().threads());
@@ -96,19 +105,66 @@ std::vector<float> extracted(const Extraction& e, const Messages& messages, Comm
       fail("[", e.network, "] a feature of ", e.name(begin + static_cast<Index>(*bad) / e.dimension),
            " is not finite: the weights do not fit this network");
     std::copy_n(values.data<float>(), values.size(), rows.data() + begin * e.dimension);
-    progress.update(begin + size - first);
+    try {
+      progress.update(begin + size - first);
+    } catch (...) {
+      keep(begin + size);
+      throw;
+    }
+    constexpr double kSeconds = 60;
+    if (progress.seconds() - kept_seconds > kSeconds && begin + size < last) {
+      keep(begin + size);
+      kept_seconds = progress.seconds();
+    }
   }
   communicator.all_reduce(rows);
   return rows;
 }
 
+namespace {
+
+/// The values of the first views in a snapshot; none if it is not of these features.
+std::vector<float> values_in(const std::filesystem::path& snapshot, const Features& features,
+                             const Messages& messages) {
+  if (snapshot.empty() || !std::filesystem::exists(snapshot)) return {};
+  try {
+    Features kept = io::read_features(snapshot);
+    const bool fits = kept.input_fingerprint == features.input_fingerprint && kept.dimension == features.dimension &&
+                      kept.count <= features.count &&
+                      std::equal(kept.paths.begin(), kept.paths.end(), features.paths.begin());
+    if (!fits) return {};
+    if (messages.line) messages.line(joined("features of ", features.backbone, ": go on after ", kept.count, " views"));
+    return std::move(kept.values);
+  } catch (const Error& error) {
+    if (messages.line) messages.line(joined("made again: ", error.what()));
+    return {};
+  }
+}
+
+/// Writes the values of the first views.
+void write_snapshot(const std::filesystem::path& snapshot, const Features& features, std::span<const float> values) {
+  const auto count = static_cast<std::ptrdiff_t>(values.size()) / features.dimension;
+  io::write_features(snapshot, {features,
+                                count,
+                                features.dimension,
+                                {values.begin(), values.end()},
+                                {features.theta_phi_deg.begin(), features.theta_phi_deg.begin() + count},
+                                {features.paths.begin(), features.paths.begin() + count}});
+}
+
+}  // namespace
+
 Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages, Communicator& communicator) {
+                          const Messages& messages, Communicator& communicator, const std::filesystem::path& snapshot) {
+  const bool keeps = !snapshot.empty() && communicator.size() == 1;
   Features features{origin, static_cast<Index>(dataset.views.size()), backbone.dimension(), {}, {}, {}};
   for (const View& view : dataset.views) {
     features.theta_phi_deg.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     features.paths.push_back(view.path);
   }
+  const std::function<void(std::span<const float>)> keep = [&](std::span<const float> values) {
+    write_snapshot(snapshot, features, values);
+  };
   features.values = extracted({.network = backbone.kind().name,
                                .count = features.count,
                                .dimension = features.dimension,
@@ -117,9 +173,17 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
                                      return prepared_batch(backbone.preprocessing(), dataset, begin, end, parallel);
                                    },
                                .run = [&](const Tensor& batch) { return backbone.features(batch); },
-                               .name = [&](Index view) { return features.paths[static_cast<std::size_t>(view)]; }},
+                               .name = [&](Index view) { return features.paths[static_cast<std::size_t>(view)]; },
+                               .made = keeps ? values_in(snapshot, features, messages) : std::vector<float>(),
+                               .keep = keeps ? keep : nullptr},
                               messages, communicator);
   return features;
+}
+
+void write_made_features(const std::filesystem::path& path, const Features& features) {
+  io::write_features(path, features);
+  std::error_code no_snapshot;
+  std::filesystem::remove(io::snapshot_path(path), no_snapshot);
 }
 
 }  // namespace svnet::train

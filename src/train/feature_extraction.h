@@ -16,8 +16,15 @@ namespace svnet::train {
 /// through the backbone, other threads read and prepare the images of the next one; a single thread does both in turn.
 /// The processes of the communicator share the batches, and each gets all features. The bits do not depend on
 /// the number of threads and processes, or on the images that share a batch.
+///
+/// With `snapshot`, a single process keeps the views so far in this file, as features of the first views, about once a
+/// minute, and if messages.progress throws. It goes on from the file if it is of the same origin and views.
 Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
-                          const Messages& messages, Communicator& communicator);
+                          const Messages& messages, Communicator& communicator,
+                          const std::filesystem::path& snapshot = {});
+
+/// Writes the features to `path` and removes the snapshot beside it (io/files/snapshot_path.h).
+void write_made_features(const std::filesystem::path& path, const Features& features);
 
 /// How numbered inputs become rows of values.
 struct Extraction {
@@ -31,6 +38,11 @@ struct Extraction {
   std::function<Tensor(const Tensor& batch)> run;
   /// What an input is called in the message that a value is not finite.
   std::function<std::string(Index input)> name;
+  /// The rows of the first inputs, made before. Of a single process only.
+  std::vector<float> made{};
+  /// Is given the rows of the first inputs about once a minute, and if messages.progress throws. Of a single process
+  /// only.
+  std::function<void(std::span<const float> rows)> keep{};
 };
 
 /// The rows of all inputs, (count, dimension), as extract_features makes them.

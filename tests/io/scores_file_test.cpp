@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "io/files/snapshot_path.h"
 #include "io/hdf5/hdf5_file.h"
 #include "temporary_folder.h"
 

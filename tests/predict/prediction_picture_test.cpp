@@ -30,21 +30,19 @@ Image part(const Image& image, Index top, Index left, Index height, Index width)
 
 }  // namespace
 
-TEST_CASE("a prediction's picture has the top image turned by half a turn, and the half-sphere") {
+TEST_CASE("a prediction's picture has the top image, and the half-sphere as it lies in that image") {
   const Image top = frame::picture_of(frame::wedge(1.4, 0.4, 30), {.height = 512, .width = 512});
   const auto poses = view::paper_grid();
   const auto scores = rising_scores(poses.size());
   const Image picture = prediction_picture(top, nullptr, poses, scores);
   REQUIRE(picture.height == 624);
   REQUIRE(picture.width == 1232);
-  const Image corner = part(picture, 56, 24, 20, 20),
-              expected = frame::quarter_turned(frame::quarter_turned(part(top, 492, 492, 20, 20)));
-  CHECK(corner.rgb == expected.rgb);
+  CHECK(part(picture, 56, 24, 20, 20).rgb == part(top, 0, 0, 20, 20).rgb);
+  const auto half_turned = [](const Image& image) { return frame::quarter_turned(frame::quarter_turned(image)); };
   const Image plot = half_sphere_plot(poses, scores);
-  CHECK(part(picture, 56 + 240, 568 + 240, 32, 32).rgb == part(plot, 240, 240, 32, 32).rgb);
+  CHECK(part(picture, 56 + 240, 568 + 240, 32, 32).rgb == half_turned(part(plot, 240, 240, 32, 32)).rgb);
   // The axis is drawn over the object's middle.
-  CHECK(part(picture, 56 + 206, 24 + 206, 100, 100).rgb !=
-        frame::quarter_turned(frame::quarter_turned(part(top, 206, 206, 100, 100))).rgb);
+  CHECK(part(picture, 56 + 206, 24 + 206, 100, 100).rgb != part(top, 206, 206, 100, 100).rgb);
 }
 
 TEST_CASE("a picture can be drawn of any image and of one pose, but not of no image") {

@@ -4,9 +4,11 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "io/files/snapshot_path.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
+#include "io/views/features_file.h"
 #include "nn/graph/keras_order.h"
 #include "small_dataset.h"
 
@@ -102,4 +104,39 @@ TEST_CASE("if the output does not need the top, its shapes are checked, but its 
   CHECK_THROWS_WITH(read_backbone("mobilenet", path, top), Catch::Contains("the model expects '" + top + "'"));
   static_cast<void>(read_backbone("mobilenet", path, "", &report));
   CHECK(report.unused == std::vector<std::string>{top});
+}
+
+TEST_CASE("features that were interrupted go on from their snapshot, to the same bits") {
+  const TemporaryFolder folder;
+  write_small_dataset(folder.path() / "data");
+  const ViewDataset dataset = read_view_dataset(folder.path() / "data");
+  const BackboneWithOrigin source{random_backbone("tiny_xception", "", 1), "random, seed 1"};
+  const FeaturesOrigin origin = features_origin(source, "data");
+  const auto file = folder.path() / "features.h5", snapshot = snapshot_path(file);
+  SingleProcess single_process;
+  struct Stop {};
+  std::vector<std::string> lines;
+  const Messages stopping{.line = {}, .progress = [](std::string_view, Index, Index, double) { throw Stop{}; }},
+      listening{.line = [&](std::string_view line) { lines.emplace_back(line); }, .progress = {}};
+  const auto extract = [&](const FeaturesOrigin& from, const Messages& messages) {
+    return extract_features(source.backbone, dataset, from, messages, single_process, snapshot);
+  };
+  CHECK_THROWS_AS(extract(origin, stopping), Stop);
+  CHECK(read_features(snapshot).count == 16);
+
+  // Those of other images are not used.
+  CHECK(extract(features_origin(source, "others"), listening).values == extracted(source.backbone, dataset).values);
+  CHECK(lines.empty());
+
+  const Features features = extract(origin, listening);
+  CHECK(features.values == extracted(source.backbone, dataset).values);
+  CHECK(lines == std::vector<std::string>{"features of tiny_xception: go on after 16 views"});
+  write_made_features(file, features);
+  CHECK_FALSE(std::filesystem::exists(snapshot));
+
+  folder.write("features.h5.snapshot", "damaged");
+  lines.clear();
+  CHECK(extract(origin, listening).values == features.values);
+  REQUIRE(lines.size() == 1);
+  CHECK_THAT(lines[0], Catch::StartsWith("made again: "));
 }

@@ -8,6 +8,7 @@
 
 #include "base/parallel.h"
 #include "io/files/file_hash.h"
+#include "io/files/snapshot_path.h"
 #include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
 #include "models/backbone.h"

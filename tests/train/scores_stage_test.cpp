@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "io/files/file_hash.h"
+#include "io/files/snapshot_path.h"
 #include "io/views/dataset_folder.h"
 #include "semantics/on_policy_weights.h"
 #include "small_dataset.h"

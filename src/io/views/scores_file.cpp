@@ -109,12 +109,6 @@ void write_scores(const std::filesystem::path& path, const Scores& scores) {
   });
 }
 
-std::filesystem::path snapshot_path(const std::filesystem::path& scores) {
-  std::filesystem::path path = scores;
-  path += ".snapshot";
-  return path;
-}
-
 ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path) {
   const Hdf5File file = Hdf5File::open(path);
   ScoresSnapshot snapshot{.input_fingerprint = file.text_attribute("", "input_fingerprint"),

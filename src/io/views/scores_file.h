@@ -31,9 +31,6 @@ struct ScoresSnapshot {
 // The HDF5 dataset is `sums` (views, sums per view) uint64; the attributes are `input_fingerprint`, `problems` and
 // `checksum`, a SHA-256.
 
-/// The path of the snapshot of a scores file.
-std::filesystem::path snapshot_path(const std::filesystem::path& scores);
-
 /// Throws Error for a file that is not a snapshot or is damaged.
 ScoresSnapshot read_scores_snapshot(const std::filesystem::path& path);
 

@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/text.h"
+#include "io/files/snapshot_path.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/top_frames.h"
 #include "train/turned_features.h"
@@ -45,14 +46,16 @@ const Features& FeaturesStage::stored(const std::filesystem::path& path, const F
   const auto found = features_.find(path);
   if (found != features_.end()) return found->second;
   const StageFile file{.path = path, .fingerprint = origin.input_fingerprint, .content = content};
-  return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, io::write_features)).first->second;
+  return features_.emplace(path, reuse_or_make(run_, file, io::read_features, make, write_made_features)).first->second;
 }
 
 const Features& FeaturesStage::features(const std::string& name, const std::string& layer) {
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = features_origin(source, run_.dataset_fingerprint);
-  return stored(features_file(run_.folder, name, layer), origin, "features of " + name, [&] {
-    return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
+  const std::filesystem::path file = features_file(run_.folder, name, layer);
+  return stored(file, origin, "features of " + name, [&] {
+    return extract_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator,
+                            io::snapshot_path(file));
   });
 }
 

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <set>
 #include <utility>
 
@@ -88,17 +87,6 @@ PlannedStage turned_features_of(const Run& run, FeaturesStage& features) {
   return planned;
 }
 
-/// The problems of one backbone and round, 0 if scores.target_error alone stops them.
-double problem_count(const Config::Scores& config, const semantics::ClusteringProblems& problems) {
-  double least = std::numeric_limits<double>::infinity();
-  for (Index view = 0; view < problems.views(); ++view)
-    if (const double share = problems.inclusion_probability(view); share > 0) least = std::min(least, share);
-  double count = std::numeric_limits<double>::infinity();
-  if (config.problems > 0) count = static_cast<double>(config.problems);
-  if (config.min_samples > 0) count = std::min(count, static_cast<double>(config.min_samples) / least);
-  return std::isfinite(count) ? count : 0;
-}
-
 /// Problems are solved on random features: how long they take hardly depends on these.
 double seconds_of_problem(const Run& run, const semantics::ClusteringProblems& problems) {
   constexpr Index kDimension = 8;
@@ -122,16 +110,16 @@ PlannedStage scores_of(const Run& run, FeaturesStage& features, bool model_is_ma
   Config::Scores drawn = config;
   drawn.min_categories = fewest_categories(run.held_out, config);
   const semantics::ClusteringProblems problems = clustering_problems(run.dataset, run.held_out, drawn);
-  const double count = problem_count(config, problems);
+  const std::uint64_t count = semantics::expected_problems(problems, score_options(run.config, 0));
   PlannedStage planned{.stage = "scores"};
-  planned.work = count > 0 ? joined(static_cast<std::int64_t>(count), " problems")
+  planned.work = count > 0 ? joined(count, " problems")
                            : joined("problems until every standard error is at most ", config.target_error);
   if (passes > 1) planned.work += joined(", ", passes, " times");
   // Scores of later rounds depend on models that do not exist yet.
   planned.is_made = model_is_made || (config.rounds == 0 && stored_fingerprint(run.folder / "scores.h5") ==
                                                                 wanted_scores_fingerprint(run.config, features));
   if (!planned.is_made && count > 0)
-    planned.seconds = seconds_of_problem(run, problems) * count * static_cast<double>(passes);
+    planned.seconds = seconds_of_problem(run, problems) * static_cast<double>(count) * static_cast<double>(passes);
   return planned;
 }
 

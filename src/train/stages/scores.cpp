@@ -7,6 +7,7 @@
 #include "base/error.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "io/files/snapshot_path.h"
 #include "semantics/mean_scores.h"
 #include "semantics/on_policy_weights.h"
 #include "semantics/semantic_scores.h"
@@ -74,7 +75,11 @@ class Snapshots {
       : path_(path), seconds_(seconds), fingerprint_(fingerprint), last_(Clock::now()) {}
 
   void write_if_due(const ScoreSums& sums) {
-    if (path_.empty() || std::chrono::duration<double>(Clock::now() - last_).count() < seconds_) return;
+    if (std::chrono::duration<double>(Clock::now() - last_).count() >= seconds_) write(sums);
+  }
+
+  void write(const ScoreSums& sums) {
+    if (path_.empty()) return;
     const auto values = sums.values();
     io::write_scores_snapshot(path_, {fingerprint_,
                                       static_cast<Index>(sums.problems),
@@ -190,8 +195,13 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
   ScoreSums sums = first_sums(snapshot, fingerprint, problems.views(), messages, how);
   Snapshots snapshots(how.communicator.is_root() ? snapshot : std::filesystem::path(), how.snapshot_seconds,
                       fingerprint);
-  continue_scores(distances, problems, options, Parallel::shared(), how.communicator, sums,
-                  {&messages, [&](const ScoreSums& so_far) { snapshots.write_if_due(so_far); }});
+  try {
+    continue_scores(distances, problems, options, Parallel::shared(), how.communicator, sums,
+                    {&messages, [&](const ScoreSums& so_far) { snapshots.write_if_due(so_far); }});
+  } catch (...) {
+    snapshots.write(sums);  // the program is told to end, or something failed: the sums hold whole problems
+    throw;
+  }
   SemanticScores made = scores_from(sums);
 
   Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
