@@ -184,6 +184,7 @@ std::vector<PlannedStage> planned_stages(const Run& run, FeaturesStage& features
     wanted.emplace(config.sv_net.backbone, config.sv_net.layer);
   const bool model_is_made = model_is_current(run, features);
   std::vector<PlannedStage> stages;
+  stages.reserve(wanted.size() + 3);
   for (const auto& [backbone, layer] : wanted) stages.push_back(features_of(run, features, backbone, layer));
   if (frame::has_turns(config.sv_net.frame)) stages.push_back(turned_features_of(run, features));
   stages.push_back(scores_of(run, features, model_is_made));
