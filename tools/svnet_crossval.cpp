@@ -1,5 +1,6 @@
 // svnet-crossval: how well SV-net chooses views of categories that it never saw.
 #include "base/parallel.h"
+#include "base/split.h"
 #include "command/browser.h"
 #include "command/command.h"
 #include "io/files/atomic_file.h"
@@ -17,15 +18,6 @@ namespace fs = std::filesystem;
 using namespace svnet;
 using namespace svnet::command;
 using train::Fold;
-
-std::vector<std::string> split(const std::string& text, char separator) {
-  std::vector<std::string> parts;
-  for (std::size_t begin = 0, end; begin <= text.size(); begin = end + 1) {
-    end = std::min(text.find(separator, begin), text.size());
-    parts.push_back(text.substr(begin, end - begin));
-  }
-  return parts;
-}
 
 /// Every combination of the values of the sweeps, as overrides "key=value"; one empty list if there is no sweep.
 std::vector<std::vector<std::string>> combinations(const std::vector<std::string>& sweeps) {

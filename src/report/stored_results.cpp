@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
+#include "base/split.h"
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/files/whole_file.h"
@@ -103,15 +104,6 @@ std::vector<std::string> lines_of(const fs::path& file) {
   return lines;
 }
 
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells;
-  for (std::size_t begin = 0, end; begin <= line.size(); begin = end + 1) {
-    end = std::min(line.find(',', begin), line.size());
-    cells.push_back(line.substr(begin, end - begin));
-  }
-  return cells;
-}
-
 double cell_number(const fs::path& file, std::size_t line, const std::string& cell) {
   double value = std::nan("");
   check(cell.empty() || parse_number(cell, value), file.string(), ", line ", line, ": '", printable(cell),
@@ -194,9 +186,9 @@ std::optional<TrainingCurves> read_curves(const fs::path& folder) {
       {"validation_regret", &TrainingCurves::validation_regret}};
   TrainingCurves curves;
   if (lines.empty()) return curves;
-  const std::vector<std::string> header = cells_of(lines.front());
+  const std::vector<std::string> header = split(lines.front(), ',');
   for (std::size_t line = 1; line < lines.size(); ++line) {
-    const std::vector<std::string> cells = cells_of(lines[line]);
+    const std::vector<std::string> cells = split(lines[line], ',');
     for (const auto& [name, values] : columns) {
       const auto column = static_cast<std::size_t>(std::find(header.begin(), header.end(), name) - header.begin());
       (curves.*values).push_back(column < cells.size() ? cell_number(file, line + 1, cells[column]) : std::nan(""));

@@ -24,7 +24,7 @@ struct ImageSplit {
   std::vector<LabelledImages::Example> training, validation;
 };
 
-ImageSplit split(const ViewDataset& dataset, const PretrainingOptions& options) {
+ImageSplit split_images(const ViewDataset& dataset, const PretrainingOptions& options) {
   const std::vector<bool> excluded = named_categories(dataset, options.exclude, "--exclude");
   std::vector<Index> objects_left(dataset.categories.size(), 0);  // to train on
   for (const auto& object : dataset.objects) ++objects_left[static_cast<std::size_t>(object.category)];
@@ -118,7 +118,7 @@ ImageSums step(const Graph& described, Parameters& parameters, Optimizer& optimi
 
 Pretrained pretrain(const ViewDataset& dataset, const PretrainingOptions& options, const Messages& messages) {
   const models::BackboneKind& kind = models::backbone_kind(options.backbone);
-  const ImageSplit parts = split(dataset, options);
+  const ImageSplit parts = split_images(dataset, options);
   const LabelledImages training(dataset, parts.training, kind.preprocessing, messages, "reading images");
   const LabelledImages validation(dataset, parts.validation, kind.preprocessing, messages, "reading validation images");
 

@@ -5,20 +5,11 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/split.h"
 #include "base/text.h"
 
 namespace svnet::train {
 namespace {
-
-std::vector<std::string> cells_of(const std::string& line) {
-  std::vector<std::string> cells(1);
-  for (const char c : line)
-    if (c == ',')
-      cells.emplace_back();
-    else
-      cells.back() += c;
-  return cells;
-}
 
 std::string tag_of(const std::string& column) {
   constexpr std::string_view kValidation = "validation_";
@@ -33,10 +24,10 @@ void TrainingEvents::add(const std::string& metrics) {
   std::istringstream text(metrics);
   std::string line;
   std::getline(text, line);
-  const std::vector<std::string> columns = cells_of(line);
+  const std::vector<std::string> columns = split(line, ',');
   for (std::size_t row = 0; std::getline(text, line); ++row) {
     if (row < rows_) continue;
-    const std::vector<std::string> cells = cells_of(line);
+    const std::vector<std::string> cells = split(line, ',');
     Index epoch = 0;
     check(cells.size() == columns.size() && parse_number(cells[0], epoch), "[training] metrics.csv, row ", row + 1,
           ": does not fit the header");
