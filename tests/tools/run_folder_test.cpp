@@ -21,6 +21,20 @@ TEST_CASE("a second svnet-train in a run folder is refused, until the first has 
   CHECK_THAT(ran.err, Contains("svnet-train: run: another svnet-train is at work in this run folder"));
 }
 
+TEST_CASE("a training that is told to end saves its state, and the next one goes on from it") {
+  const Workplace place;
+  const Ran ran = place.run(
+      "train='svnet-train config.yaml --output run --threads 1 --set training.epochs=100000'; "
+      "wait_for() { for i in $(seq 600); do grep -q \"$1\" run/log.txt 2>/dev/null && break; sleep 0.1; done; }; "
+      "$train >first 2>&1 & process=$!; wait_for 'epoch 1/'; kill -TERM $process; wait $process; echo \"first $?\"; "
+      "$train >second 2>&1 & process=$!; wait_for 'goes on after epoch'; kill -TERM $process; wait $process; "
+      "echo \"second $?\"; cat second; ls run");
+  INFO(ran.out << ran.err);
+  CHECK_THAT(ran.out, Contains("first 130") && Contains("second 130") && Contains("training: goes on after epoch ") &&
+                          Contains("svnet-train: interrupted") && Contains("checkpoint-last.safetensors") &&
+                          !Contains("model.safetensors"));
+}
+
 TEST_CASE("a run folder works after it was moved with its data, or without them by --set") {
   const Workplace place;
   place.output_of(
