@@ -49,8 +49,8 @@ void evaluate_run(const train::Run& run, train::FeaturesStage& features, const M
   report::write_predictions(run.folder, run.dataset,
                             report::predictions_of(run, predicted, scores, held_out ? &*held_out : nullptr));
   const fs::path page = report::write_report(config, run.dataset, run.folder, Parallel::shared());
-  if (output.prints) console.result("Report: " + page.string());
   if (output.open) show_in_browser(page, console);
+  if (output.prints) console.result("Report: " + page.string());
 }
 
 }  // namespace svnet::command

@@ -110,8 +110,8 @@ void cross_validate(const Arguments& arguments, Console& console) {
                             report::predictions_of(runs.front().run, validations.front().result));
   const fs::path page =
       report::write_report(runs.front().run.config, base.dataset, arguments.output, Parallel::shared());
-  console.result("Report: " + page.string());
   if (arguments.open) show_in_browser(page, console);
+  console.result("Report: " + page.string());
 }
 
 }  // namespace

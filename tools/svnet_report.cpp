@@ -74,7 +74,7 @@ int main(int argc, char** argv) {
     check_output(output, runs);
     const fs::path page = runs.size() == 1 ? one_run(runs.front(), overrides, output)
                                            : side_by_side(runs, output.empty() ? "comparison.html" : output);
-    if (!io::is_standard_output(page)) console.result("Report: " + page.string());
     if (open) show_in_browser(page, console);
+    if (!io::is_standard_output(page)) console.result("Report: " + page.string());
   });
 }
