@@ -34,19 +34,20 @@ int main(int argc, char** argv) {
                   "svnet-info runs/eth80/scores.h5\nsvnet-info --plan vgg19 --batch 8\n"
                   "svnet-info runs/eth80/model.safetensors --plan");
   std::string what, layer;
-  bool plan = false;
+  bool plan = false, tensors = false;
   Index batch = 1;
   command.add("FILE", what, "A file (.h5, .safetensors); with --plan, a model file or a backbone's name");
   const Argument asked = command.add_flag("--plan", plan, "Print the steps of the compiled network, timed");
   command.add("--batch", batch, "Images that run together (default 1)").needs(asked).in_range(1, 1024);
   command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
   command.add_precision().needs(asked);
+  command.add_flag("--tensors", tensors, "Lists the tensors of a model file too").excludes(asked);
   return command.run(argc, argv, [&](Console& console) {
     if (what.empty()) {
       if (plan) wrong_usage("--plan takes a model file or the name of a backbone");
       return console.result(machine_text());
     }
-    if (!plan) return console.result(description_of(what));
+    if (!plan) return console.result(description_of(what, tensors));
     const InferenceOptions options = inference_options_from_environment(command.precision());
     const std::filesystem::path file = what;
     if (std::filesystem::exists(file) || file.has_extension() || file.has_parent_path()) {

@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "frame/frame_inputs.h"
 #include "frame/seen_shapes.h"
@@ -8,6 +9,12 @@
 #include "nn/graph/parameters.h"
 
 namespace svnet {
+
+/// What a model was trained on. No categories: not known, the model was made by an earlier version.
+struct TrainedOn {
+  std::vector<std::string> categories{};
+  Index objects = 0, top_views = 0;
+};
 
 /// A trained SV-net: it scores camera poses for a top image.
 struct Model {
@@ -30,6 +37,7 @@ struct Model {
   Graph head;  // as sv_net() or, in frames other than `camera`, as models/pose_head.h makes it
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the parameters depend on
+  TrainedOn trained_on{};
 };
 
 /// What the head of a model in a frame other than `camera` sees.

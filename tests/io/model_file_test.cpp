@@ -159,6 +159,22 @@ TEST_CASE("a damaged model in the frame axis is refused") {
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
 }
 
+TEST_CASE("a model says what it was trained on") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
+  Model model = axis_model(frame::DepthChoice::none);
+  write_model(path, model);
+  CHECK(read_model(path).trained_on.categories.empty());
+  model.trained_on = {{"mug", "pan"}, 5, 20};
+  write_model(path, model);
+  const TrainedOn on = read_model(path).trained_on;
+  CHECK(on.categories == std::vector<std::string>{"mug", "pan"});
+  CHECK(on.objects == 5);
+  CHECK(on.top_views == 20);
+  write_changed(path, bad, [](auto& d) { d["trained_on"]["objects"] = "five"; });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
+}
+
 TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";

@@ -122,6 +122,10 @@ TEST_CASE("svnet-train and svnet-eval work in the object's own frame, with the r
   CHECK(difference.at("low").is_null());  // two categories say nothing about others
 
   const std::string info = place.output_of("svnet-info run/model.safetensors");
-  CHECK_THAT(info, Contains("axis") && Contains("heights") && Contains("ridge"));
+  CHECK_THAT(info, Contains("its depth image") && Contains("axis") && Contains("heights") &&
+                       Contains("ridge regression") && Contains("standard deviations") &&
+                       !Contains("head/ridge/kernel"));
+  CHECK_THAT(place.output_of("svnet-info run/model.safetensors --tensors"),
+             Contains("trained on") && Contains("head/ridge/kernel"));
   CHECK_THAT(place.output_of("svnet-info run/model.safetensors --plan"), Contains("SV-net") && Contains("ridge"));
 }

@@ -3,13 +3,16 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "base/error.h"
 #include "base/text.h"
 #include "data/scores_summary.h"
+#include "info/describe_model.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/keras/keras_weights.h"
+#include "io/models/model_file.h"
 #include "io/tensors/safetensors.h"
 #include "io/views/features_file.h"
 #include "io/views/scores_file.h"
@@ -66,6 +69,16 @@ std::string describe_weights(const std::filesystem::path& file) {
                 " numbers; layers and shapes in the order of the file:", layers.str());
 }
 
+/// Whether the description that svnet puts into a safetensors file says that it is a model.
+bool is_model(const io::SafetensorsFile& file) {
+  for (const auto& [key, value] : file.metadata())
+    if (key == "svnet") {
+      const auto description = nlohmann::json::parse(value, nullptr, false);
+      return description.is_object() && description.value("kind", nlohmann::json()) == "model";
+    }
+  return false;
+}
+
 std::string describe_safetensors(const std::filesystem::path& file) {
   const io::SafetensorsFile f(file);
   std::ostringstream text;
@@ -88,10 +101,14 @@ bool is_hdf5(const std::filesystem::path& file) {
 
 }  // namespace
 
-std::string description_of(const std::filesystem::path& file) {
+std::string description_of(const std::filesystem::path& file, bool with_tensors) {
   check(!std::filesystem::exists(file) || std::filesystem::is_regular_file(file), file.string(),
         ": is a folder or device, expected a file");
-  if (!is_hdf5(file)) return describe_safetensors(file);
+  if (!is_hdf5(file)) {
+    if (!is_model(io::SafetensorsFile(file))) return describe_safetensors(file);
+    const std::string model = description_of(io::read_model(file));
+    return with_tensors ? model + "\n" + describe_safetensors(file) : model;
+  }
   const Hdf5File hdf5 = Hdf5File::open(file);
   if (hdf5.has("features")) return describe_features(file);
   if (hdf5.has("individual")) return describe_scores(file);

@@ -147,6 +147,9 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   file.description()["head"] = {{"graph", graph_to_json(model.head)}};
   file.description()["input_fingerprint"] = model.input_fingerprint;
   if (model.symmetries != 1) file.description()["head"]["orientations"] = model.symmetries;
+  if (const TrainedOn& on = model.trained_on; !on.categories.empty())
+    file.description()["trained_on"] = {
+        {"categories", on.categories}, {"objects", on.objects}, {"top_views", on.top_views}};
   add_parameters(file, "backbone", backbone, model.backbone_parameters);
   add_parameters(file, "head", model.head, model.head_parameters);
   file.write(path);
@@ -175,6 +178,13 @@ Model model_of(const TensorFile& file) {
       model.frame = choice_from_json<FrameChoice>(frame, "kind");
       model.depth = choice_from_json<frame::DepthChoice>(frame, "depth");
       model.seen = seen_from_json(frame);
+    });
+  }
+  if (file.description().contains("trained_on")) {
+    const json on = file.get<json>("trained_on");
+    reading(file, [&] {
+      model.trained_on = {on.at("categories").get<std::vector<std::string>>(), on.at("objects").get<Index>(),
+                          on.at("top_views").get<Index>()};
     });
   }
   const bool is_camera = model.frame == FrameChoice::camera, has_backbone = frame::has_backbone(model.frame);

@@ -2,6 +2,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "base/text.h"
 #include "io/files/atomic_file.h"
@@ -175,6 +176,26 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
   return model;
 }
 
+/// The training categories without those for validation, which only networks in the frame `camera` have.
+TrainedOn trained_on(const Run& run) {
+  std::vector<bool> learnt = run.training_categories();
+  if (run.config.sv_net.frame == FrameChoice::camera) {
+    const std::vector<bool> validating = validation_categories(run.held_out, run.config);
+    for (std::size_t c = 0; c < learnt.size(); ++c) learnt[c] = learnt[c] && !validating[c];
+  }
+  TrainedOn on;
+  for (std::size_t c = 0; c < learnt.size(); ++c)
+    if (learnt[c]) on.categories.push_back(run.dataset.categories[c]);
+  std::set<Index> objects;
+  for (const ViewDataset::Pose& pose : run.dataset.poses)
+    if (learnt[static_cast<std::size_t>(pose.category)]) {
+      objects.insert(pose.object);
+      ++on.top_views;
+    }
+  on.objects = static_cast<Index>(objects.size());
+  return on;
+}
+
 Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint,
                  Resume resume) {
   const Config& config = run.config;
@@ -207,7 +228,11 @@ Model model_stage(const Run& run, FeaturesStage& features, const Scores& scores,
                        .fingerprint = wanted_fingerprint(run, features),
                        .content = "SV-net",
                        .resume = resume};
-  const auto make = [&] { return make_model(run, features, scores, file.fingerprint, resume); };
+  const auto make = [&] {
+    Model model = make_model(run, features, scores, file.fingerprint, resume);
+    model.trained_on = trained_on(run);
+    return model;
+  };
   return reuse_or_make(run, file, io::read_model, make, io::write_model);
 }
 

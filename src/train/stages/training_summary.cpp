@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <set>
 
 #include "base/error.h"
 #include "train/selectors.h"
@@ -51,16 +50,9 @@ std::vector<std::string> training_summary(const Run& run, FeaturesStage& feature
   const std::vector<double>& target = target_scores(scores, run.config.sv_net.target);
   const std::vector<double> predicted = predicted_scores(run, features, model);
 
-  std::set<Index> objects;
-  Index top_views = 0;
-  for (const ViewDataset::Pose& pose : run.dataset.poses)
-    if (training[static_cast<std::size_t>(pose.category)]) {
-      objects.insert(pose.object);
-      ++top_views;
-    }
   std::vector<std::string> lines{
-      joined("SV-net learnt from ", top_views, " top views of ", objects.size(), " objects in ",
-             std::ranges::count(training, true), " categories"),
+      joined("SV-net learnt from ", model.trained_on.top_views, " top views of ", model.trained_on.objects,
+             " objects in ", model.trained_on.categories.size(), " categories"),
       joined("mean score of the views that it chooses, beside other choices, in categories that it ",
              validated ? "did not learn from:" : "learnt from:")};
   const SelectorInputs inputs{

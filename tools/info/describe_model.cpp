@@ -1,0 +1,79 @@
+#include "info/describe_model.h"
+
+#include <algorithm>
+#include <sstream>
+
+#include "base/error.h"
+#include "base/text.h"
+
+namespace svnet {
+namespace {
+
+const char* frame_words(frame::FrameChoice frame) {
+  switch (frame) {
+    case frame::FrameChoice::camera:
+      return "azimuths count from the camera's, as the image was taken";
+    case frame::FrameChoice::axis:
+      return "azimuths count from the object's own axis, which is measured in the image";
+    case frame::FrameChoice::turned:
+      return "the image is turned to each candidate camera";
+    case frame::FrameChoice::turned_axis:
+      return "the image is turned to each candidate camera, and the object's axis is measured in it";
+  }
+  fail("[info] there is no such frame");
+}
+
+std::string input_text(const Model& model) {
+  std::string text = "an RGB image of the object from above, of any size";
+  if (model.depth != frame::DepthChoice::none) text += ", and its depth image";
+  return text;
+}
+
+std::string preprocessing_text(const models::Preprocessing& p) {
+  return joined(p.height, "x", p.width, ", ", name_of(p.interpolation), ", pixels as ", name_of(p.mode));
+}
+
+std::string head_text(const Model& model) {
+  const Index parameters = model.head.parameter_count();
+  if (model.frame == frame::FrameChoice::camera)
+    return joined("network, ", parameters, " parameters",
+                  model.symmetries > 1 ? ", mean over the orientations of the image" : "");
+  const bool is_linear =
+      std::ranges::none_of(model.head.nodes(), [](const GraphNode& node) { return node.name == "mean"; });
+  return joined(is_linear ? "ridge regression" : "networks, averaged", " on ", frame::input_count(frame_spec(model)),
+                " inputs of the object and the camera pose, ", parameters, " parameters");
+}
+
+std::string trained_on_text(const TrainedOn& on) {
+  if (on.categories.empty()) return "not known: the model was made by an earlier version";
+  return joined(on.top_views, " top views of ", on.objects, " objects in ", on.categories.size(),
+                " categories: ", printable(joined_with(", ", on.categories)));
+}
+
+}  // namespace
+
+std::string description_of(const Model& model) {
+  std::ostringstream text;
+  const auto line = [&](const std::string& name, const std::string& value) {
+    text << "\n  " << name << std::string(14 - name.size(), ' ') << value;
+  };
+  text << "SV-net, a trained model: scores camera poses, 0 to 1, higher shows more of the object";
+  line("takes", input_text(model));
+  line("frame", joined(name_of(model.frame), ": ", frame_words(model.frame)));
+  if (frame::has_axis(model.frame)) line("depth", name_of(model.depth));
+  if (frame::has_backbone(model.frame)) {
+    line("backbone", printable(model.backbone) + ", layer " + printable(model.backbone_output));
+    line("preprocessing", preprocessing_text(model.preprocessing));
+  }
+  line("head", head_text(model));
+  line("angles", "theta, the azimuth, and phi, the elevation of the camera, in degrees; (90, 90) is the top view");
+  line("trained on", trained_on_text(model.trained_on));
+  if (!model.seen.mean.empty())
+    line("shapes", joined("up to ", model.seen.limit,
+                          " standard deviations from their mean; of a shape farther away, the "
+                          "terms of the shape count less"));
+  line("fingerprint", printable(model.input_fingerprint));
+  return text.str();
+}
+
+}  // namespace svnet
