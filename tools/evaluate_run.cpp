@@ -35,19 +35,17 @@ void evaluate_run(const train::Run& run, train::FeaturesStage& features, const M
   const train::Config& config = run.config;
   const auto problems = static_cast<std::uint64_t>(config.evaluation.problems);
   const std::vector<double> predicted = predicted_scores(run, features, model);
-  const auto tables = evaluation_stage(run, {features, scores, predicted}, problems, output.json);
-  if (output.prints) print_tables(config, tables, console);
-
   std::optional<semantics::SemanticScores> held_out;
   if (run.has_held_out_problems()) held_out = held_out_scores(run, features, problems);
-  if (held_out) {
-    const fs::path sheet = contact_sheet_stage(run, predicted, *held_out);
-    if (output.prints) console.result("Views of held-out objects: " + sheet.string());
-  }
+  const train::EvaluationInputs inputs{features, scores, predicted, held_out ? &*held_out : nullptr};
+  const auto tables = evaluation_stage(run, inputs, problems, output.json);
+  if (output.prints) print_tables(config, tables, console);
+
+  if (const auto sheet = contact_sheet_stage(run, inputs, problems); sheet && output.prints)
+    console.result("Views of held-out objects: " + sheet->string());
   write_evaluation_events(run, tables, predicted,
                           held_out ? target_scores(*held_out, config.sv_net.target) : std::vector<double>());
-  report::write_predictions(run.folder, run.dataset,
-                            report::predictions_of(run, predicted, scores, held_out ? &*held_out : nullptr));
+  report::write_predictions(run.folder, run.dataset, report::predictions_of(run, predicted, scores, inputs.held_out));
   const fs::path page = report::write_report(config, run.dataset, run.folder, Parallel::shared());
   if (output.open) show_in_browser(page, console);
   if (output.prints) console.result("Report: " + page.string());

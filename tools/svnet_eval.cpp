@@ -4,6 +4,7 @@
 #include "evaluate_run.h"
 #include "io/files/atomic_file.h"
 #include "io/views/dataset_folder.h"
+#include "run_config.h"
 #include "train/config/config_file.h"
 #include "train/selectors.h"
 #include "train/stages/model.h"
@@ -68,14 +69,9 @@ int main(int argc, char** argv) {
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();
-    if (folder_given)
-      check(fs::exists(source / "config.yaml"), source.string(),
-            ": is no run folder, it has no config.yaml; svnet-train --output makes one");
-    // A run's paths are relative to the folder itself, not to a link to it.
-    const fs::path config_file = folder_given ? fs::canonical(source) / "config.yaml" : source;
+    const fs::path config_file = folder_given ? config_file_of(source) : source;
     Config config = train::read_config(config_file, overrides);
-    check(fs::exists(config.dataset.root), config.dataset.root.string(),
-          ": no such folder; if the data set was moved, say where it is by --set dataset.root=DIR");
+    check_data_exist(config);
     if (problems.given()) config.evaluation.problems = given.evaluation.problems;
     if (!selectors.empty()) config.evaluation.selectors = selectors;
     ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);

@@ -6,20 +6,14 @@
 #include "io/views/dataset_folder.h"
 #include "report/collect.h"
 #include "report/comparison.h"
+#include "run_config.h"
 #include "train/config/config_file.h"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace svnet;
-
-fs::path config_of(const fs::path& run) {
-  check(fs::is_directory(run), run.string(), ": no such run folder");
-  const fs::path config = fs::canonical(run) / "config.yaml";
-  check(fs::exists(config), run.string(),
-        ": is no run folder, it has no config.yaml; svnet-train and svnet-crossval make one");
-  return config;
-}
+using namespace svnet::command;
 
 /// Throws Error if the page would replace a file of a run other than its page.
 void check_output(const fs::path& output, const std::vector<fs::path>& runs) {
@@ -32,9 +26,8 @@ void check_output(const fs::path& output, const std::vector<fs::path>& runs) {
 }
 
 fs::path one_run(const fs::path& run, const std::vector<std::string>& overrides, const fs::path& output) {
-  const train::Config config = train::read_config(config_of(run), overrides);
-  check(fs::exists(config.dataset.root), config.dataset.root.string(),
-        ": no such folder; if the data set was moved, say where it is by --set dataset.root=DIR");
+  const train::Config config = train::read_config(config_file_of(run), overrides);
+  check_data_exist(config);
   const ViewDataset dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
   return report::write_report(config, dataset, run, Parallel::shared(), output);
 }
@@ -50,7 +43,6 @@ fs::path side_by_side(const std::vector<fs::path>& runs, const fs::path& output)
 }  // namespace
 
 int main(int argc, char** argv) {
-  using namespace svnet::command;
   Command command("svnet-report",
                   "Makes the page of a run, report.html in its folder, from what svnet-eval or svnet-crossval left "
                   "there. With several runs, makes one page that shows them side by side.",
@@ -70,7 +62,7 @@ int main(int argc, char** argv) {
   command.add_flag("--open", open, "Shows the page in a browser");
   return command.run(argc, argv, [&](Console& console) {
     if (runs.size() > 1 && !overrides.empty()) wrong_usage("--set is for a single run");
-    for (const fs::path& run : runs) static_cast<void>(config_of(run));
+    for (const fs::path& run : runs) static_cast<void>(config_file_of(run));
     check_output(output, runs);
     const fs::path page = runs.size() == 1 ? one_run(runs.front(), overrides, output)
                                            : side_by_side(runs, output.empty() ? "comparison.html" : output);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "frame/frame_words.h"
 #include "io/files/atomic_file.h"
 #include "io/views/features_file.h"
 #include "report/feature_map.h"
@@ -82,20 +83,6 @@ std::optional<FeatureMap> map_of(const train::Config& config, const ViewDataset&
   return feature_map(dataset, features, views, static_cast<std::uint64_t>(config.seed), parallel);
 }
 
-const char* frame_words(frame::FrameChoice frame) {
-  switch (frame) {
-    case frame::FrameChoice::camera:
-      return "azimuths count from the camera's, as the image was taken";
-    case frame::FrameChoice::axis:
-      return "azimuths count from the object's own axis";
-    case frame::FrameChoice::turned:
-      return "the top image is turned to each candidate camera";
-    case frame::FrameChoice::turned_axis:
-      return "the top image is turned to each candidate camera, and the object's axis is known";
-  }
-  return "";
-}
-
 std::string head_words(const train::Config& config) {
   if (config.sv_net.frame == frame::FrameChoice::camera)
     return joined("network of width ", config.sv_net.width, " on ", config.sv_net.backbone, ", ",
@@ -114,7 +101,7 @@ std::vector<Setting> settings_of(const train::Config& config, const ViewDataset&
        joined(config.dataset.root.filename().string(), ": ", dataset.categories.size(), " categories, ",
               dataset.objects.size(), " objects, ", dataset.poses.size(), " poses, ", dataset.views.size(), " views")}};
   if (!config.dataset.held_out.empty()) settings.push_back({"Held out", joined_with(", ", config.dataset.held_out)});
-  settings.push_back({"Frame", joined(name_of(config.sv_net.frame), ": ", frame_words(config.sv_net.frame))});
+  settings.push_back({"Frame", joined(name_of(config.sv_net.frame), ": ", frame::words_of(config.sv_net.frame))});
   if (frame::has_axis(config.sv_net.frame))
     settings.push_back({"Depth", config.sv_net.depth == frame::DepthChoice::none
                                      ? "none: images alone"

@@ -10,7 +10,7 @@ namespace svnet::report {
 std::string summary_html(const RunReport& report);
 
 /// SV-net's lead over another selector in the table of held-out categories, by the metric and the mean over pipelines;
-/// not known if there is none.
+/// its mean is NaN if the table lacks it.
 Estimate overall_lead(const RunReport& report, const std::string& over, std::size_t metric);
 
 /// "this is sure: the interval excludes 0", or why it is not.

@@ -20,4 +20,11 @@ std::vector<bool> validation_categories(const std::vector<bool>& held_out, const
   return chosen;
 }
 
+CategoryUse category_use(const std::vector<bool>& held_out, const Config& config) {
+  CategoryUse use{.learnt = held_out, .validate = std::vector<bool>(held_out.size(), false)};
+  if (config.sv_net.frame == frame::FrameChoice::camera) use.validate = validation_categories(held_out, config);
+  for (std::size_t c = 0; c < held_out.size(); ++c) use.learnt[c] = !held_out[c] && !use.validate[c];
+  return use;
+}
+
 }  // namespace svnet::train

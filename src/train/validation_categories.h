@@ -10,4 +10,11 @@ namespace svnet::train {
 /// train on.
 std::vector<bool> validation_categories(const std::vector<bool>& held_out, const Config& config);
 
+/// How SV-net uses the categories that are not held out.
+struct CategoryUse {
+  std::vector<bool> learnt;    ///< per category
+  std::vector<bool> validate;  ///< per category; none in other frames than `camera`, whose heads need no validation
+};
+CategoryUse category_use(const std::vector<bool>& held_out, const Config& config);
+
 }  // namespace svnet::train

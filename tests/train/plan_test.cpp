@@ -1,6 +1,8 @@
 #include "train/stages/plan.h"
 
 #include <catch2/catch.hpp>
+#include <functional>
+#include <optional>
 
 #include "io/views/dataset_folder.h"
 #include "small_dataset.h"
@@ -21,17 +23,29 @@ const PlannedStage& stage_of(const std::vector<PlannedStage>& stages, const std:
   return stages[0];
 }
 
+/// A run on the small dataset that is about to begin.
+struct PlannedRun {
+  explicit PlannedRun(const std::function<void(Config&)>& change) {
+    write_small_dataset(temporary.path() / "data");
+    Config config = small_config(temporary.path() / "data");
+    config.scores.problems = 0;
+    change(config);
+    run.emplace(make_run(config, io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation),
+                         temporary.path() / "run", {}));
+    features.emplace(*run);
+  }
+
+  TemporaryFolder temporary{};
+  std::optional<Run> run{};
+  std::optional<FeaturesStage> features{};
+};
+
 }  // namespace
 
 TEST_CASE("a plan names the stages with their work and time, and says what is made") {
-  const TemporaryFolder temporary;
-  write_small_dataset(temporary.path() / "data");
-  Config config = small_config(temporary.path() / "data");
-  config.scores.problems = 0;
-  config.scores.min_samples = 50;
-  const auto dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
-  const Run run = make_run(config, dataset, temporary.path() / "run", {});
-  FeaturesStage features(run);
+  PlannedRun planned([](Config& config) { config.scores.min_samples = 50; });
+  const Run& run = *planned.run;
+  FeaturesStage& features = *planned.features;
 
   auto stages = planned_stages(run, features);
   REQUIRE(stages.size() == 3);
@@ -65,16 +79,11 @@ TEST_CASE("a plan names the stages with their work and time, and says what is ma
 }
 
 TEST_CASE("the time of scores is unknown if only their error stops them; with on-policy rounds they come again") {
-  const TemporaryFolder temporary;
-  write_small_dataset(temporary.path() / "data");
-  Config config = small_config(temporary.path() / "data");
-  config.scores.problems = 0;
-  config.scores.target_error = 0.5;
-  config.scores.rounds = 2;
-  const auto dataset = io::read_view_dataset(config.dataset.root, config.dataset.exif_orientation);
-  const Run run = make_run(config, dataset, temporary.path() / "run", {});
-  FeaturesStage features(run);
-  const auto stages = planned_stages(run, features);
+  PlannedRun planned([](Config& config) {
+    config.scores.target_error = 0.5;
+    config.scores.rounds = 2;
+  });
+  const auto stages = planned_stages(*planned.run, *planned.features);
   const PlannedStage& scores = stage_of(stages, "scores");
   CHECK(scores.work == "problems until every standard error is at most 0.5, 3 times");
   CHECK_FALSE(scores.seconds.has_value());

@@ -5,23 +5,10 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "frame/frame_words.h"
 
 namespace svnet {
 namespace {
-
-const char* frame_words(frame::FrameChoice frame) {
-  switch (frame) {
-    case frame::FrameChoice::camera:
-      return "azimuths count from the camera's, as the image was taken";
-    case frame::FrameChoice::axis:
-      return "azimuths count from the object's own axis, which is measured in the image";
-    case frame::FrameChoice::turned:
-      return "the image is turned to each candidate camera";
-    case frame::FrameChoice::turned_axis:
-      return "the image is turned to each candidate camera, and the object's axis is measured in it";
-  }
-  fail("[info] there is no such frame");
-}
 
 std::string input_text(const Model& model) {
   std::string text = "an RGB image of the object from above, of any size";
@@ -59,7 +46,7 @@ std::string description_of(const Model& model) {
   };
   text << "SV-net, a trained model: scores camera poses, 0 to 1, higher shows more of the object";
   line("takes", input_text(model));
-  line("frame", joined(name_of(model.frame), ": ", frame_words(model.frame)));
+  line("frame", joined(name_of(model.frame), ": ", frame::words_of(model.frame)));
   if (frame::has_axis(model.frame)) line("depth", name_of(model.depth));
   if (frame::has_backbone(model.frame)) {
     line("backbone", printable(model.backbone) + ", layer " + printable(model.backbone_output));

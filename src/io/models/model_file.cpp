@@ -216,6 +216,10 @@ Model model_of(const TensorFile& file) {
 
 Model read_model(const std::filesystem::path& path) { return model_of(TensorFile::read(path, "model")); }
 
+std::string read_model_fingerprint(const std::filesystem::path& path) {
+  return TensorFile::read_description(path, "model").get<std::string>("input_fingerprint");
+}
+
 Model parse_model(const std::string& name, std::span<const std::byte> contents) {
   return model_of(TensorFile::parse(name, contents, "model"));
 }

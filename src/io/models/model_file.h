@@ -24,4 +24,8 @@ Model read_model(const std::filesystem::path& path);
 /// The same for the contents of a file in memory. Errors call it `name`.
 Model parse_model(const std::string& name, std::span<const std::byte> contents);
 
+/// Reads only the fingerprint, and no tensor: they may be hundreds of megabytes. Throws Error unless the file is a
+/// model of this version.
+std::string read_model_fingerprint(const std::filesystem::path& path);
+
 }  // namespace svnet::io

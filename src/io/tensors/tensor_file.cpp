@@ -53,8 +53,20 @@ TensorFile TensorFile::parse(const std::string& name, std::span<const std::byte>
   return from(SafetensorsFile(name, contents), name, kind, "");
 }
 
+TensorFile TensorFile::read_description(const std::filesystem::path& path, const std::string& kind) {
+  return described(SafetensorsFile(path), path.string(), kind);
+}
+
 TensorFile TensorFile::from(const SafetensorsFile& raw, const std::string& path, const std::string& kind,
                             const std::string& left_out) {
+  TensorFile file = described(raw, path, kind);
+  for (const auto& tensor : raw.tensors())
+    if (left_out.empty() || !tensor.name.starts_with(left_out))
+      file.tensors_.emplace_back(tensor.name, copied(file.path_, tensor));
+  return file;
+}
+
+TensorFile TensorFile::described(const SafetensorsFile& raw, const std::string& path, const std::string& kind) {
   TensorFile file;
   file.path_ = path;
   const auto entry = raw.metadata().find("svnet");
@@ -70,9 +82,6 @@ TensorFile TensorFile::from(const SafetensorsFile& raw, const std::string& path,
         kind);
   check(file.get<int>("format") == kFormat, file.path_, ": has format ", file.get<int>("format"),
         ", this svnet reads format ", kFormat);
-  for (const auto& tensor : raw.tensors())
-    if (left_out.empty() || !tensor.name.starts_with(left_out))
-      file.tensors_.emplace_back(tensor.name, copied(file.path_, tensor));
   return file;
 }
 

@@ -17,7 +17,9 @@ class TensorFile {
   /// Throws Error that names the file unless the description has this `kind` ("model", "checkpoint", "weights") and
   /// this version's "format". Tensors whose names begin with `left_out` are skipped; if it is empty, all are read.
   static TensorFile read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out = "");
-  /// The same for the contents of a file in memory. Errors call it `name`.
+  /// The same without any tensor.
+  static TensorFile read_description(const std::filesystem::path& path, const std::string& kind);
+  /// As read, for the contents of a file in memory. Errors call it `name`.
   static TensorFile parse(const std::string& name, std::span<const std::byte> contents, const std::string& kind);
 
   TensorFile();
@@ -48,7 +50,8 @@ class TensorFile {
   const std::string& path() const { return path_; }
 
  private:
-  static TensorFile from(const class SafetensorsFile& raw, const std::string& path, const std::string& kind,
+  static TensorFile described(const class SafetensorsFile& raw, const std::string& path, const std::string& kind);
+  static TensorFile from(const SafetensorsFile& raw, const std::string& path, const std::string& kind,
                          const std::string& left_out);
 
   std::string path_;

@@ -10,14 +10,11 @@ namespace svnet::train {
 std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const EvaluationInputs& inputs,
                                                          std::uint64_t problems) {
   if (!run.has_held_out_problems()) return {};
-  return contact_sheet_stage(run, inputs.predicted, held_out_scores(run, inputs.features, problems));
-}
-
-std::filesystem::path contact_sheet_stage(const Run& run, std::span<const double> predicted,
-                                          const semantics::SemanticScores& held_out) {
-  const auto& best = target_scores(held_out, run.config.sv_net.target);
+  const semantics::SemanticScores scores =
+      inputs.held_out != nullptr ? *inputs.held_out : held_out_scores(run, inputs.features, problems);
+  const auto& best = target_scores(scores, run.config.sv_net.target);
   const Selector selectors[] = {{"top", top_views(run.dataset)},
-                                {"svnet", best_views(run.dataset, predicted)},
+                                {"svnet", best_views(run.dataset, inputs.predicted)},
                                 {"best", best_views(run.dataset, best)}};
   return write_contact_sheet(run, run.held_out, selectors);
 }

@@ -4,7 +4,6 @@
 #include <span>
 #include <vector>
 
-#include "semantics/semantic_scores.h"
 #include "train/stages/evaluation.h"
 
 namespace svnet::train {
@@ -14,10 +13,6 @@ namespace svnet::train {
 /// held-out categories.
 std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const EvaluationInputs& inputs,
                                                          std::uint64_t problems);
-
-/// The same with the true scores of held-out categories at hand. Requires a held-out category.
-std::filesystem::path contact_sheet_stage(const Run& run, std::span<const double> predicted,
-                                          const semantics::SemanticScores& held_out);
 
 /// Writes views.png, a contact sheet of objects of `categories` with the views of the selectors. Returns its path.
 std::filesystem::path write_contact_sheet(const Run& run, const std::vector<bool>& categories,

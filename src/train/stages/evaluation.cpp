@@ -50,8 +50,10 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
     const SelectorInputs in_held_out{.dataset = run.dataset,
                                      .scores =
                                          [&] {
-                                           if (!scores) scores = held_out_scores(run, inputs.features, problems);
-                                           return ViewScores{scores->individual, scores->global};
+                                           if (inputs.held_out == nullptr && !scores)
+                                             scores = held_out_scores(run, inputs.features, problems);
+                                           const auto& known = inputs.held_out != nullptr ? *inputs.held_out : *scores;
+                                           return ViewScores{known.individual, known.global};
                                          },
                                      .predicted = inputs.predicted,
                                      .training_scores = inputs.scores,

@@ -4,6 +4,7 @@
 #include <span>
 
 #include "data/scores.h"
+#include "semantics/score_sums.h"
 #include "train/evaluation_text.h"
 #include "train/run.h"
 #include "train/stages/features.h"
@@ -15,6 +16,8 @@ struct EvaluationInputs {
   FeaturesStage& features;
   const Scores& scores;               ///< of the training categories
   std::span<const double> predicted;  ///< SV-net's score of every view
+  /// Of the held-out categories (held_out_scores.h), if they are at hand; otherwise they are made when they are needed.
+  const semantics::SemanticScores* held_out = nullptr;
 };
 
 /// The last stage: how well views that selectors choose are clustered. Returns the tables of training categories and,

@@ -176,13 +176,8 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
   return model;
 }
 
-/// The training categories without those for validation, which only networks in the frame `camera` have.
 TrainedOn trained_on(const Run& run) {
-  std::vector<bool> learnt = run.training_categories();
-  if (run.config.sv_net.frame == FrameChoice::camera) {
-    const std::vector<bool> validating = validation_categories(run.held_out, run.config);
-    for (std::size_t c = 0; c < learnt.size(); ++c) learnt[c] = learnt[c] && !validating[c];
-  }
+  const std::vector<bool> learnt = category_use(run.held_out, run.config).learnt;
   TrainedOn on;
   for (std::size_t c = 0; c < learnt.size(); ++c)
     if (learnt[c]) on.categories.push_back(run.dataset.categories[c]);
@@ -203,17 +198,15 @@ Model make_model(const Run& run, FeaturesStage& features, const Scores& scores, 
   const Backbone& backbone = features.backbone(config.sv_net.backbone, config.sv_net.layer).backbone;
   Model model = untrained_model(config, backbone, fingerprint);
 
-  const std::vector<bool> validating = validation_categories(run.held_out, config);
-  std::vector<bool> training = run.training_categories();
-  for (std::size_t c = 0; c < training.size(); ++c) training[c] = training[c] && !validating[c];
+  const CategoryUse use = category_use(run.held_out, config);
   const auto targets = [&](const std::vector<bool>& categories) {
     return view_targets(run.dataset, scores, categories, config.sv_net.target, config.training.target);
   };
   const std::unique_ptr<ViewInputs> inputs = training_inputs(run, features, backbone, first_trained(config, backbone));
-  const TrainingSet training_set(run.dataset, *inputs, targets(training), model.angles);
+  const TrainingSet training_set(run.dataset, *inputs, targets(use.learnt), model.angles);
   std::optional<TrainingSet> validation_set;
   if (config.training.validation_categories > 0)
-    validation_set.emplace(run.dataset, *inputs, targets(validating), model.angles);
+    validation_set.emplace(run.dataset, *inputs, targets(use.validate), model.angles);
   const Graph trained = trained_network(config, backbone);
   run.say(joined("SV-net: ", trained.parameter_count(), " parameters, ", training_set.size(), " examples to learn from",
                  validation_set ? joined(", ", validation_set->size(), " to validate on") : std::string()));
@@ -240,7 +233,7 @@ bool model_is_current(const Run& run, FeaturesStage& features) {
   const auto path = run.folder / "model.safetensors";
   if (!std::filesystem::exists(path)) return false;
   try {
-    return io::read_model(path).input_fingerprint == wanted_fingerprint(run, features);
+    return io::read_model_fingerprint(path) == wanted_fingerprint(run, features);
   } catch (const Error&) {
     return false;  // the stage says why it makes the model again
   }

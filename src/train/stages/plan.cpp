@@ -32,7 +32,7 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// Of a features or scores file; "" if there is none, or if it cannot be read.
+/// Of a features or scores file. Returns "" if the file does not exist or cannot be read.
 std::string stored_fingerprint(const std::filesystem::path& file) {
   if (!std::filesystem::exists(file)) return "";
   try {
@@ -124,11 +124,8 @@ PlannedStage scores_of(const Run& run, FeaturesStage& features, bool model_is_ma
 }
 
 Index training_examples(const Run& run) {
-  const std::vector<bool> validating = validation_categories(run.held_out, run.config);
-  const auto learns = [&](const View& view) {
-    const auto category = static_cast<std::size_t>(view.category);
-    return !run.held_out[category] && !validating[category];
-  };
+  const std::vector<bool> learnt = category_use(run.held_out, run.config).learnt;
+  const auto learns = [&](const View& view) { return learnt[static_cast<std::size_t>(view.category)]; };
   return std::ranges::count_if(run.dataset.views, learns) * trained_orientations(run.config);
 }
 

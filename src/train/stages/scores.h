@@ -35,7 +35,8 @@ struct ScoringOptions {
 
 /// Computes the scores of every view with `config.scores` and `config.seed`, but for rounds: views are drawn by
 /// `weights`, uniformly if it is empty. Views of excluded categories have none. Writes a snapshot to
-/// snapshot_path(path) from time to time, and if messages.progress throws. Requires: the rows of the features are the dataset's views.
+/// snapshot_path(path) from time to time, and if messages.progress throws. Requires: the rows of the features are the
+/// dataset's views.
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoringOptions& options, const semantics::ViewWeights& weights = {});

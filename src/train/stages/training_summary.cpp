@@ -42,11 +42,8 @@ double mean_score(const Run& run, const std::vector<double>& scores, const std::
 
 std::vector<std::string> training_summary(const Run& run, FeaturesStage& features, const Scores& scores,
                                           const Model& model) {
-  std::vector<bool> training = run.training_categories();
-  std::vector<bool> validating(training.size(), false);  // heads in other frames have no validation categories
-  if (model.frame == frame::FrameChoice::camera) validating = validation_categories(run.held_out, run.config);
-  const bool validated = std::ranges::find(validating, true) != validating.end();
-  for (std::size_t c = 0; c < training.size(); ++c) training[c] = training[c] && !validating[c];
+  const CategoryUse use = category_use(run.held_out, run.config);
+  const bool validated = std::ranges::find(use.validate, true) != use.validate.end();
   const std::vector<double>& target = target_scores(scores, run.config.sv_net.target);
   const std::vector<double> predicted = predicted_scores(run, features, model);
 
@@ -69,7 +66,7 @@ std::vector<std::string> training_summary(const Run& run, FeaturesStage& feature
        selectors_of_table({"svnet", "broadside", "phi_map", "top", "rand", best}, Split::training)) {
     char line[160];
     std::snprintf(line, sizeof line, "  %-10s %.3f  %s", kind->name,
-                  mean_score(run, target, validated ? validating : training, kind->view(inputs)), kind->help);
+                  mean_score(run, target, validated ? use.validate : use.learnt, kind->view(inputs)), kind->help);
     lines.emplace_back(line);
   }
   return lines;
