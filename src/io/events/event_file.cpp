@@ -8,7 +8,7 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "io/events/crc32c.h"
+#include "base/crc32c.h"
 #include "io/images/image_codecs.h"
 
 namespace svnet::io {
