@@ -4,6 +4,7 @@
 #include <cassert>
 #include <optional>
 
+#include "nn/graph/stored_precision.h"
 #include "nn/kernels/batch_norm/channel_norm.h"
 #include "nn/kernels/multiply/multiply.h"
 #include "nn/runtime/folding.h"
@@ -19,11 +20,12 @@ using kernels::Clamp;
 /// are fused into it. There is one `emit_step` for each layer.
 class Compiler {
  public:
-  Compiler(const Graph& graph, const Parameters& parameters, Convolution convolution, Precision precision)
+  Compiler(const Graph& graph, const Parameters& parameters, const InferenceOptions& options)
       : graph_(graph),
         parameters_(parameters),
-        fusion_(graph, convolution),
-        precision_(precision),
+        fusion_(graph, options.convolution),
+        precision_(options.precision),
+        int8_dense_(options.int8_dense),
         value_(graph.nodes().size(), -1) {}
 
   Program program() {
@@ -200,7 +202,11 @@ class Compiler {
 
   void emit_step(Fused f, const DenseLayer& l) {
     const Activation rest = f.take(l.activation);
-    push(f.last, dense_step(get(f.main, "kernel"), bias(f.main, l), f.finish, precision_), inputs(f, input(f.main)));
+    const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, l);
+    const bool is_int8 = int8_dense_ && is_rounded(node(f.main).name + "/kernel", kernel.shape());
+    push(f.last,
+         is_int8 ? int8_dense_step(kernel, own_bias, f.finish) : dense_step(kernel, own_bias, f.finish, precision_),
+         inputs(f, input(f.main)));
     activate(f.last, rest);
   }
 
@@ -276,6 +282,7 @@ class Compiler {
   const Parameters& parameters_;
   const Fusion fusion_;
   const Precision precision_;
+  const bool int8_dense_;
   std::vector<ValueId> value_;  // of each node; -1 if it has none
   Program program_{};
 };
@@ -285,7 +292,7 @@ class Compiler {
 Program compile(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options) {
   kernels::check_available(options.precision);
   const FoldedGraph inference = folded(graph, parameters, output);
-  return Compiler(inference.graph, inference.parameters, options.convolution, options.precision).program();
+  return Compiler(inference.graph, inference.parameters, options).program();
 }
 
 }  // namespace svnet::runtime

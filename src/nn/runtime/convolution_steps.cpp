@@ -1,6 +1,7 @@
 #include "base/text.h"
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
+#include "nn/kernels/int8/int8_gemm.h"
 #include "nn/kernels/separable/fused_separable.h"
 #include "nn/kernels/winograd/winograd.h"
 #include "nn/runtime/step.h"
@@ -56,6 +57,24 @@ class PackedConvolution : public Step {
  private:
   Window window_;
   PackedWeights weights_;
+  ConvolutionFinish finish_;
+};
+
+class Int8Dense : public Step {
+ public:
+  Int8Dense(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish)
+      : weights_(packed_int8(kernel.dim(0), kernel.dim(1), data_of(kernel), data_of(bias))), finish_(finish) {}
+
+  void run(const StepBuffers& b) const override {
+    int8_gemm(b.parallel, b.batch, b.inputs[0], weights_, packed_finish(finish_, b), b.output, b.scratch);
+  }
+  Index scratch(Index, int threads) const override { return int8_gemm_scratch(threads); }
+  std::string kernel() const override { return "int8 gemm 1x1"; }
+  double flops() const override { return 2.0 * static_cast<double>(weights_.depth * weights_.n); }
+  double weight_bytes() const override { return static_cast<double>(weights_.depth * weights_.n); }
+
+ private:
+  PackedInt8 weights_;
   ConvolutionFinish finish_;
 };
 
@@ -199,6 +218,10 @@ StepPointer convolution_step(const Window& window, const Tensor& kernel, const T
 StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish, Precision precision) {
   return std::make_unique<PackedConvolution>(window_over("dense", 1, 1, 1, kernel.dim(0), {}), kernel, bias, finish,
                                              precision);
+}
+
+StepPointer int8_dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish) {
+  return std::make_unique<Int8Dense>(kernel, bias, finish);
 }
 
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,

@@ -10,6 +10,9 @@ namespace svnet {
 struct InferenceOptions {
   kernels::Convolution convolution = kernels::Convolution::automatic;
   kernels::Precision precision = kernels::Precision::f32;
+  /// Large dense layers keep their weights in int8 (nn/kernels/int8), instead of `precision`: for models whose weights
+  /// are stored so, and whose values are therefore not changed.
+  bool int8_dense = false;
 };
 
 /// What SVNET_CONVOLUTION and SVNET_PRECISION ask for; the defaults if they are unset or empty. A `precision` that is

@@ -53,6 +53,8 @@ StepPointer convolution_step(const Window& window, const Tensor& kernel, const T
                              const ConvolutionFinish& finish, bool winograd, kernels::Precision precision);
 StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
                        kernels::Precision precision);
+/// With the weights rounded to int8.
+StepPointer int8_dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish);
 
 /// The depthwise half of a separable convolution, in f32: clamp(depthwise(x or relu(x)) + bias).
 struct DepthwisePart {

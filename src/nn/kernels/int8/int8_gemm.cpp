@@ -1,0 +1,118 @@
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "nn/kernels/int8/int8_gemm.cpp"
+#include "nn/kernels/int8/int8_gemm.h"
+
+#include <algorithm>
+
+#include <hwy/foreach_target.h>
+#include <hwy/highway.h>
+
+#include "nn/kernels/packed/panel.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace svnet::kernels {
+namespace HWY_NAMESPACE {
+
+/// to (rows, 16) = panel (rows, 16) · scales (16).
+void panel_from_int8(const std::int8_t* panel, Index rows, const float* scales, float* to) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<float, kPanel> floats;
+  const hn::Rebind<std::int32_t, decltype(floats)> wide;
+  const hn::Rebind<std::int8_t, decltype(floats)> narrow;
+  const auto lanes = static_cast<Index>(hn::Lanes(floats));
+  for (Index column = 0; column < kPanel; column += lanes) {
+    const auto scale = hn::Load(floats, scales + column);
+    for (Index row = 0; row < rows; ++row) {
+      const Index at = row * kPanel + column;
+      const auto values = hn::ConvertTo(floats, hn::PromoteTo(wide, hn::LoadU(narrow, panel + at)));
+      hn::Store(hn::Mul(values, scale), floats, to + at);
+    }
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace svnet::kernels
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+#include "nn/kernels/int8/int8_weights.h"
+#include "nn/kernels/packed/tile_kernels.h"
+
+namespace svnet::kernels {
+
+HWY_EXPORT(panel_from_int8);
+
+namespace {
+
+constexpr Index kBlock = kPackedDepth * kPanel;  // floats of a panel that is converted at once
+
+/// `count` panels from p on, for `rows` rows of a, which are `depth` apart.
+void multiply_int8(const TileKernels& kernels, Index count, Index rows, const float* a, const PackedInt8& weights,
+                   Index p, const PackedFinish& finish, float* c, float* block) {
+  const auto [low, high] = range_of(finish.clamp);
+  const Index depth = weights.depth, n = weights.n;
+  const TileFinish tile_finish{weights.bias.get() + p * kPanel,
+                               finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
+  for (Index begin = 0; begin < depth; begin += kPackedDepth) {
+    const Index run = std::min(kPackedDepth, depth - begin);
+    for (Index i = 0; i < count; ++i) HWY_DYNAMIC_DISPATCH(panel_from_int8)
+    (weights.panels.get() + ((p + i) * depth + begin) * kPanel, run, weights.scales.get() + (p + i) * kPanel,
+     block + i * kBlock);
+    multiply_panels(kernels, count, rows, {a + begin, depth, kPanel}, run, block, kBlock,
+                    {.c = c + p * kPanel,
+                     .stride = n,
+                     .accumulate = begin > 0,
+                     .finish = begin + run == depth ? &tile_finish : nullptr,
+                     .columns = n - p * kPanel});
+  }
+}
+
+}  // namespace
+
+PackedInt8 packed_int8(Index depth, Index n, const float* w, const float* bias) {
+  const Index padded = panels(n) * kPanel;
+  const auto bytes = static_cast<std::size_t>(padded * depth);
+  auto* memory = static_cast<std::int8_t*>(aligned_memory(bytes));
+  if (memory == nullptr) throw NoMemory(bytes);
+  PackedInt8 packed{.depth = depth,
+                    .n = n,
+                    .panels = std::unique_ptr<std::int8_t[], FreeAligned>(memory),
+                    .scales = aligned_floats(padded),
+                    .bias = aligned_floats(padded)};
+  const Int8Weights weights = int8_weights({.outer = depth, .channels = n}, w);
+  std::fill_n(packed.scales.get(), padded, 1.0f);
+  std::ranges::copy(weights.scales, packed.scales.get());
+  std::fill_n(packed.bias.get(), padded, 0.0f);
+  if (bias != nullptr) std::copy_n(bias, n, packed.bias.get());
+  for (Index p = 0; p < panels(n); ++p) {
+    const Index columns = std::min(kPanel, n - p * kPanel);
+    for (Index row = 0; row < depth; ++row) {
+      std::int8_t* to = packed.panels.get() + (p * depth + row) * kPanel;
+      std::copy_n(weights.values.data() + row * n + p * kPanel, columns, to);
+      std::fill_n(to + columns, kPanel - columns, std::int8_t{0});
+    }
+  }
+  return packed;
+}
+
+void int8_gemm(Parallel& parallel, Index rows, const float* a, const PackedInt8& weights, const PackedFinish& finish,
+               float* c, float* scratch) {
+  if (rows == 0) return;
+  const TileKernels kernels = f32_tiles();
+  const Index block = packed_block_rows(rows, weights.depth), blocks = (rows + block - 1) / block;
+  const Index all = panels(weights.n), groups = (all + kernels.panels - 1) / kernels.panels;
+  parallel.for_chunks(blocks * groups, 1, [&](Index task, Index, int worker) {
+    const Index row = task / groups * block, first = task % groups * kernels.panels;
+    PackedFinish here = finish;
+    if (here.residual != nullptr) here.residual += row * weights.n;
+    const Index count = std::min(kernels.panels, all - first);
+    for (Index p = first; p < first + count; p += count == kernels.panels ? count : 1)
+      multiply_int8(kernels, count == kernels.panels ? count : 1, std::min(block, rows - row), a + row * weights.depth,
+                    weights, p, here, c + row * weights.n, scratch + worker * kMostTilePanels * kBlock);
+  });
+}
+
+Index int8_gemm_scratch(int threads) { return threads * kMostTilePanels * kBlock; }
+
+}  // namespace svnet::kernels
+#endif
