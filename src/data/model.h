@@ -7,6 +7,7 @@
 #include "models/preprocessing.h"
 #include "models/sv_net.h"
 #include "nn/graph/parameters.h"
+#include "nn/graph/stored_precision.h"
 
 namespace svnet {
 
@@ -14,6 +15,18 @@ namespace svnet {
 struct TrainedOn {
   std::vector<std::string> categories{};
   Index objects = 0, top_views = 0;
+};
+
+/// What a model reached on categories that it was not trained on. No values: not known, or none were held out.
+struct HeldOutResults {
+  std::vector<std::string> categories{};
+  Index problems = 0;
+  /// A cell of a table of evaluation.json: how well the views that `selector` chose were clustered by `pipeline`.
+  struct Value {
+    std::string pipeline, selector, metric;
+    double mean = 0, standard_error = 0;  ///< NaN if not known
+  };
+  std::vector<Value> values{};
 };
 
 /// A trained SV-net: it scores camera poses for a top image.
@@ -38,6 +51,9 @@ struct Model {
   Parameters head_parameters;
   std::string input_fingerprint;  // of everything that the parameters depend on
   TrainedOn trained_on{};
+  HeldOutResults held_out{};
+  /// How a file holds the kernels. In int8 their values are products of whole numbers and scales.
+  StoredPrecision precision = StoredPrecision::f32;
 };
 
 /// What the head of a model in a frame other than `camera` sees.

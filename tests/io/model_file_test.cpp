@@ -175,6 +175,29 @@ TEST_CASE("a model says what it was trained on") {
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
 }
 
+TEST_CASE("a model says what it reached on held-out categories") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
+  Model model = axis_model(frame::DepthChoice::none);
+  write_model(path, model);
+  CHECK(read_model(path).held_out.values.empty());
+  model.held_out = {
+      .categories = {"mug", "pan"},
+      .problems = 100,
+      .values = {{"vgg19_ward", "svnet", "fm", 0.5, 0.01}, {"vgg19_ward", "top", "fm", 0.4, std::nan("")}}};
+  write_model(path, model);
+  const HeldOutResults results = read_model(path).held_out;
+  CHECK(results.categories == std::vector<std::string>{"mug", "pan"});
+  CHECK(results.problems == 100);
+  REQUIRE(results.values.size() == 2);
+  CHECK(results.values[0].selector == "svnet");
+  CHECK(results.values[0].mean == 0.5);
+  CHECK(results.values[0].standard_error == 0.01);
+  CHECK(std::isnan(results.values[1].standard_error));
+  write_changed(path, bad, [](auto& d) { d["held_out"]["tables"] = 3; });
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
+}
+
 TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
@@ -254,8 +277,8 @@ TEST_CASE("the file of a model in the frame camera does not say a frame") {
   CHECK_FALSE(description.contains("frame"));
   std::vector<std::string> members;
   for (const auto& [key, value] : description.items()) members.push_back(key);
-  CHECK(members ==
-        std::vector<std::string>{"angles", "backbone", "format", "head", "input_fingerprint", "kind", "preprocessing"});
+  CHECK(members == std::vector<std::string>{"angles", "backbone", "checksums", "format", "head", "input_fingerprint",
+                                            "kind", "preprocessing"});
 }
 
 TEST_CASE("every kind of layer survives JSON") {
@@ -348,7 +371,11 @@ TEST_CASE("a file that is not a model, or has other tensors, is refused") {
   for (auto& tensor : tensors)
     if (tensor.name == "head/mlp1_1_fc/bias") tensor.bytes = std::as_bytes(std::span(bias));
   const auto bad = temporary.path() / "bad.safetensors";
-  write_safetensors(bad, tensors, good.metadata());
+  auto metadata = good.metadata();
+  nlohmann::json description = nlohmann::json::parse(metadata.at("svnet"));
+  description.erase("checksums");
+  metadata.at("svnet") = description.dump();
+  write_safetensors(bad, tensors, metadata);
   CHECK_THROWS_WITH(read_model(bad),
                     Catch::EndsWith("tensor 'head/mlp1_1_fc/bias' holds a value that is not finite at 3"));
 }

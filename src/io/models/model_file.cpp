@@ -6,6 +6,7 @@
 
 #include "frame/frame_inputs.h"
 #include "io/models/graph_json.h"
+#include "io/models/model_origin.h"
 #include "io/tensors/tensor_file.h"
 #include "view/symmetry.h"
 
@@ -36,10 +37,14 @@ Preprocessing preprocessing_from_json(const json& from) {
   return p;
 }
 
-void add_parameters(TensorFile& file, const std::string& prefix, const Graph& graph, const Parameters& parameters) {
+void add_parameters(TensorFile& file, const std::string& prefix, const Graph& graph, const Parameters& parameters,
+                    StoredPrecision precision) {
   for (const auto& node : graph.nodes())
-    for (const auto& spec : node.parameters)
-      file.add(prefix + "/" + node.parameter_name(spec), parameters.at(node.parameter_name(spec)));
+    for (const auto& spec : node.parameters) {
+      const std::string name = node.parameter_name(spec);
+      file.add(prefix + "/" + name, parameters.at(name),
+               is_rounded(name, spec.shape) ? precision : StoredPrecision::f32);
+    }
 }
 
 void check_backbone(const Model& model) {
@@ -147,11 +152,10 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   file.description()["head"] = {{"graph", graph_to_json(model.head)}};
   file.description()["input_fingerprint"] = model.input_fingerprint;
   if (model.symmetries != 1) file.description()["head"]["orientations"] = model.symmetries;
-  if (const TrainedOn& on = model.trained_on; !on.categories.empty())
-    file.description()["trained_on"] = {
-        {"categories", on.categories}, {"objects", on.objects}, {"top_views", on.top_views}};
-  add_parameters(file, "backbone", backbone, model.backbone_parameters);
-  add_parameters(file, "head", model.head, model.head_parameters);
+  if (model.precision != StoredPrecision::f32) file.description()["precision"] = name_of(model.precision);
+  write_origin(model, file.description());
+  add_parameters(file, "backbone", backbone, model.backbone_parameters, model.precision);
+  add_parameters(file, "head", model.head, model.head_parameters, model.precision);
   file.write(path);
 }
 
@@ -180,13 +184,12 @@ Model model_of(const TensorFile& file) {
       model.seen = seen_from_json(frame);
     });
   }
-  if (file.description().contains("trained_on")) {
-    const json on = file.get<json>("trained_on");
-    reading(file, [&] {
-      model.trained_on = {on.at("categories").get<std::vector<std::string>>(), on.at("objects").get<Index>(),
-                          on.at("top_views").get<Index>()};
-    });
-  }
+  reading(file, [&] {
+    read_origin(file.description(), model);
+    if (file.description().contains("precision"))
+      model.precision = enum_from_name<StoredPrecision>("precision",
+                                                        file.description().at("precision").get<std::string>());
+  });
   const bool is_camera = model.frame == FrameChoice::camera, has_backbone = frame::has_backbone(model.frame);
   const json head = file.get<json>("head"), backbone = has_backbone ? file.get<json>("backbone") : json(),
              preprocessing = has_backbone ? file.get<json>("preprocessing") : json(),

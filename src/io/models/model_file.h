@@ -12,6 +12,7 @@ namespace svnet::io {
 // "head/<layer>/<parameter>". Its description is {"backbone": {"name", "output", "graph"}, "preprocessing": {"pixels",
 // "height", "width", "interpolation", "channels"}, "head": {"graph", "orientations"}, "angles": {"encoding", "unit",
 // "order"}, "input_fingerprint"}. "orientations" is the number of symmetries and is left out if it is 1.
+// "precision" is left out if it is f32. What the model was trained on and what it reached: model_origin.h.
 // A model in another frame than `camera` has "frame": {"kind", "depth"} instead of "angles". In the frame `axis` it has
 // no tensors of a backbone, and neither "backbone" nor "preprocessing".
 

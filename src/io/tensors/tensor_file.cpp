@@ -3,10 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <iomanip>
+#include <list>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
+#include "base/crc32c.h"
 #include "base/finite.h"
+#include "base/parallel.h"
 #include "io/tensors/safetensors.h"
+#include "nn/kernels/int8/int8_weights.h"
+#include "nn/kernels/packed/bf16_tile.h"
 
 namespace svnet::io {
 namespace {
@@ -22,20 +29,77 @@ void check_finite(const std::string& path, const std::string& name, const Tensor
     fail(path, ": tensor '", name, "' holds a value that is not finite at ", *bad);
 }
 
-Tensor copied(const std::string& path, const SafetensorsTensor& from) {
-  check(from.dtype == "F32" || from.dtype == "BF16", path, ": tensor '", from.name, "' is ", from.dtype,
-        ", expected F32 or BF16");
+constexpr const char* kScale = ".scale";
+
+bool is_scale(const std::string& name) { return name.ends_with(kScale); }
+
+/// Copies the elements of a tensor of f32, bytes of any alignment.
+Tensor f32_copy(const SafetensorsTensor& from) {
   Tensor tensor = Tensor::empty(from.shape);
-  if (from.dtype == "F32") {
-    std::memcpy(tensor.data<float>(), from.bytes.data(), from.bytes.size());
-  } else {  // the upper halves of the floats
-    std::vector<std::uint16_t> halves(from.bytes.size() / 2);
-    std::memcpy(halves.data(), from.bytes.data(), from.bytes.size());
-    std::ranges::transform(halves, tensor.data<float>(),
-                           [](std::uint16_t half) { return std::bit_cast<float>(std::uint32_t{half} << 16); });
-  }
+  std::memcpy(tensor.data<float>(), from.bytes.data(), from.bytes.size());
+  return tensor;
+}
+
+Tensor bf16_copy(const SafetensorsTensor& from) {
+  Tensor tensor = Tensor::empty(from.shape);
+  std::vector<std::uint16_t> halves(from.bytes.size() / 2);  // the upper halves of the floats
+  std::memcpy(halves.data(), from.bytes.data(), from.bytes.size());
+  std::ranges::transform(halves, tensor.data<float>(),
+                         [](std::uint16_t half) { return std::bit_cast<float>(std::uint32_t{half} << 16); });
+  return tensor;
+}
+
+kernels::ChannelShape channels_of(const Shape& shape) {
+  return {.outer = shape.empty() ? 1 : element_count(shape) / shape.back(),
+          .channels = shape.empty() ? 1 : shape.back()};
+}
+
+Tensor int8_copy(const std::string& path, const SafetensorsFile& raw, const SafetensorsTensor& from) {
+  const SafetensorsTensor& scale = raw.at(from.name + kScale);
+  const kernels::ChannelShape shape = channels_of(from.shape);
+  check(scale.dtype == "F32" && scale.shape == Shape{shape.channels}, path, ": tensor '", scale.name, "' is ",
+        scale.dtype, " ", to_string(scale.shape), ", expected F32 ", shape.channels);
+  const Tensor scales = f32_copy(scale);
+  Tensor tensor = Tensor::empty(from.shape);
+  const std::span values(reinterpret_cast<const std::int8_t*>(from.bytes.data()), from.bytes.size());
+  kernels::from_int8(shape, values, scales.values<float>(), tensor.data<float>());
+  return tensor;
+}
+
+Tensor copied(const std::string& path, const SafetensorsFile& raw, const SafetensorsTensor& from) {
+  check(from.dtype == "F32" || from.dtype == "BF16" || from.dtype == "I8", path, ": tensor '", from.name, "' is ",
+        from.dtype, ", expected F32, BF16 or I8");
+  const Tensor tensor = from.dtype == "F32"    ? f32_copy(from)
+                        : from.dtype == "BF16" ? bf16_copy(from)
+                                               : int8_copy(path, raw, from);
   check_finite(path, from.name, tensor);
   return tensor;
+}
+
+std::string checksum_of(std::span<const std::byte> bytes) {
+  std::ostringstream text;
+  text << std::hex << std::setfill('0') << std::setw(8)
+       << crc32c({reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+  return text.str();
+}
+
+std::vector<std::string> checksums_of(std::span<const SafetensorsTensor> tensors) {
+  std::vector<std::string> checksums(tensors.size());
+  Parallel::shared().for_chunks(static_cast<Index>(tensors.size()), 1, [&](Index i, Index, int) {
+    const auto at = static_cast<std::size_t>(i);
+    checksums[at] = checksum_of(tensors[at].bytes);
+  });
+  return checksums;
+}
+
+void check_checksums(const std::string& path, const nlohmann::json& description,
+                     std::span<const SafetensorsTensor> tensors) {
+  if (!description.contains("checksums")) return;
+  const nlohmann::json& wanted = description.at("checksums");
+  const std::vector<std::string> checksums = checksums_of(tensors);
+  for (std::size_t i = 0; i < tensors.size(); ++i)
+    check(wanted.contains(tensors[i].name) && wanted.at(tensors[i].name) == checksums[i], path, ": tensor '",
+          tensors[i].name, "' does not have its checksum: the file is damaged or was changed; copy or train it again");
 }
 
 }  // namespace
@@ -60,9 +124,13 @@ TensorFile TensorFile::read_description(const std::filesystem::path& path, const
 TensorFile TensorFile::from(const SafetensorsFile& raw, const std::string& path, const std::string& kind,
                             const std::string& left_out) {
   TensorFile file = described(raw, path, kind);
-  for (const auto& tensor : raw.tensors())
-    if (left_out.empty() || !tensor.name.starts_with(left_out))
-      file.tensors_.emplace_back(tensor.name, copied(file.path_, tensor));
+  std::vector<SafetensorsTensor> wanted;
+  std::ranges::copy_if(raw.tensors(), std::back_inserter(wanted), [&](const SafetensorsTensor& tensor) {
+    return left_out.empty() || !tensor.name.starts_with(left_out);
+  });
+  check_checksums(file.path_, *file.description_, wanted);
+  for (const auto& tensor : wanted)
+    if (!is_scale(tensor.name)) file.tensors_.push_back({tensor.name, copied(file.path_, raw, tensor)});
   return file;
 }
 
@@ -99,14 +167,16 @@ template double TensorFile::get<double>(const std::string&) const;
 template std::string TensorFile::get<std::string>(const std::string&) const;
 template nlohmann::json TensorFile::get<nlohmann::json>(const std::string&) const;
 
-void TensorFile::add(const std::string& name, const Tensor& tensor) { tensors_.emplace_back(name, tensor); }
+void TensorFile::add(const std::string& name, const Tensor& tensor, StoredPrecision precision) {
+  tensors_.push_back({name, tensor, precision});
+}
 
 void TensorFile::add(const std::string& prefix, const Parameters& parameters) {
   for (const auto& [name, tensor] : parameters.items()) add(path_of(prefix, name), tensor);
 }
 
 const Tensor& TensorFile::at(const std::string& name, const Shape& shape) const {
-  for (const auto& [known, tensor] : tensors_) {
+  for (const auto& [known, tensor, precision] : tensors_) {
     if (known != name) continue;
     check(tensor.shape() == shape, path_, ": tensor '", name, "' is ", to_string(tensor.shape()), ", expected ",
           to_string(shape));
@@ -127,18 +197,45 @@ Parameters TensorFile::parameters(const std::string& prefix, const Graph& graph)
 }
 
 void TensorFile::check_holds_only(const Parameters& parameters) const {
-  for (const auto& [name, tensor] : tensors_)
+  for (const auto& [name, tensor, precision] : tensors_)
     check(parameters.contains(name), path_, ": holds tensor '", name, "' (", to_string(tensor.shape()),
           "), for which the network has no place");
 }
 
 void TensorFile::write(const std::filesystem::path& path) const {
   std::vector<SafetensorsTensor> raw;
-  for (const auto& [name, tensor] : tensors_) check_finite(path.string(), name, tensor);
-  for (const auto& [name, tensor] : tensors_)
-    raw.push_back({name, "F32", tensor.shape(), std::as_bytes(tensor.values<float>())});
+  std::list<std::vector<std::byte>> rounded;  // the bytes of tensors that are not f32
+  const auto keep = [&](const auto& values) {
+    const auto bytes = std::as_bytes(std::span(values));
+    return std::span<const std::byte>(rounded.emplace_back(bytes.begin(), bytes.end()));
+  };
+  for (const auto& [name, tensor, precision] : tensors_) {
+    check_finite(path.string(), name, tensor);
+    switch (precision) {
+      case StoredPrecision::f32:
+        raw.push_back({name, "F32", tensor.shape(), std::as_bytes(tensor.values<float>())});
+        break;
+      case StoredPrecision::bf16: {
+        std::vector<std::uint16_t> halves(static_cast<std::size_t>(tensor.size()));
+        std::ranges::transform(tensor.values<float>(), halves.begin(),
+                               [](float value) { return static_cast<std::uint16_t>(kernels::bf16_bits(value)); });
+        raw.push_back({name, "BF16", tensor.shape(), keep(halves)});
+        break;
+      }
+      case StoredPrecision::int8: {
+        const kernels::ChannelShape shape = channels_of(tensor.shape());
+        const kernels::Int8Weights weights = kernels::int8_weights(shape, tensor.data<float>());
+        raw.push_back({name, "I8", tensor.shape(), keep(weights.values)});
+        raw.push_back({name + kScale, "F32", {shape.channels}, keep(weights.scales)});
+        break;
+      }
+    }
+  }
   nlohmann::json description = *description_;
   description["format"] = kFormat;
+  const std::vector<std::string> checksums = checksums_of(raw);
+  nlohmann::json& by_name = description["checksums"] = nlohmann::json::object();
+  for (std::size_t i = 0; i < raw.size(); ++i) by_name[raw[i].name] = checksums[i];
   write_safetensors(path, raw, {{"svnet", description.dump()}});
 }
 

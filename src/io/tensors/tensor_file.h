@@ -7,15 +7,19 @@
 #include <vector>
 
 #include "nn/graph/parameters.h"
+#include "nn/graph/stored_precision.h"
 
 namespace svnet::io {
 
-/// A safetensors file of svnet: F32 tensors and a JSON object that describes them, which is the entry "svnet" of the
-/// metadata.
+/// A safetensors file of svnet: tensors and a JSON object that describes them, which is the entry "svnet" of the
+/// metadata. Tensors are F32; BF16; or I8 with a tensor "<name>.scale" (C) of F32 beside them, where C is the size of
+/// the last axis: an element is value · scale. In memory all are f32. Its "checksums" are the CRC-32C of the bytes of
+/// each tensor, by name, as 8 hexadecimal digits; files of earlier versions have none.
 class TensorFile {
  public:
   /// Throws Error that names the file unless the description has this `kind` ("model", "checkpoint", "weights") and
-  /// this version's "format". Tensors whose names begin with `left_out` are skipped; if it is empty, all are read.
+  /// this version's "format", and the tensors their checksums. Tensors whose names begin with `left_out` are skipped;
+  /// if it is empty, all are read.
   static TensorFile read(const std::filesystem::path& path, const std::string& kind, const std::string& left_out = "");
   /// The same without any tensor.
   static TensorFile read_description(const std::filesystem::path& path, const std::string& kind);
@@ -33,7 +37,8 @@ class TensorFile {
   template <class T>
   T get(const std::string& member) const;
 
-  void add(const std::string& name, const Tensor& tensor);
+  /// `precision`: how the file holds it. Its values are rounded when the file is written.
+  void add(const std::string& name, const Tensor& tensor, StoredPrecision precision = StoredPrecision::f32);
   /// Adds every parameter as "prefix/name", or as "name" if the prefix is empty.
   void add(const std::string& prefix, const Parameters& parameters);
   /// Throws Error that names the file and the tensor if it is missing or has another shape.
@@ -56,7 +61,12 @@ class TensorFile {
 
   std::string path_;
   std::unique_ptr<nlohmann::json> description_;
-  std::vector<std::pair<std::string, Tensor>> tensors_;
+  struct Entry {
+    std::string name;
+    Tensor tensor;
+    StoredPrecision precision = StoredPrecision::f32;
+  };
+  std::vector<Entry> tensors_;
 };
 
 }  // namespace svnet::io
