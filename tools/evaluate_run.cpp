@@ -8,6 +8,7 @@
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
 #include "train/stages/evaluation_events.h"
+#include "train/stages/held_out_results.h"
 #include "train/stages/held_out_scores.h"
 #include "train/stages/predictions.h"
 #include "train/view_targets.h"
@@ -39,6 +40,8 @@ void evaluate_run(const train::Run& run, train::FeaturesStage& features, const M
   if (run.has_held_out_problems()) held_out = held_out_scores(run, features, problems);
   const train::EvaluationInputs inputs{features, scores, predicted, held_out ? &*held_out : nullptr};
   const auto tables = evaluation_stage(run, inputs, problems, output.json);
+  if (const auto table = tables.find("held_out"); table != tables.end())
+    keep_held_out_results(run, model, table->second);
   if (output.prints) print_tables(config, tables, console);
 
   if (const auto sheet = contact_sheet_stage(run, inputs, problems); sheet && output.prints)

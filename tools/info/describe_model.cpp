@@ -1,6 +1,8 @@
 #include "info/describe_model.h"
 
 #include <algorithm>
+#include <iomanip>
+#include <map>
 #include <sstream>
 
 #include "base/error.h"
@@ -37,6 +39,29 @@ std::string trained_on_text(const TrainedOn& on) {
                 " categories: ", printable(joined_with(", ", on.categories)));
 }
 
+/// A line per pipeline: the means of all metrics for each selector.
+std::vector<std::string> held_out_lines(const HeldOutResults& results) {
+  if (results.values.empty()) return {"not known: no categories were held out, or svnet-eval was not run"};
+  std::vector<std::string> metrics,
+      lines{joined("on ", results.categories.size(), " categories held out (",
+                   printable(joined_with(", ", results.categories)), "), ", results.problems, " problems")};
+  std::map<std::string, std::map<std::string, std::string>> cells;  // by pipeline and selector
+  for (const auto& value : results.values) {
+    if (std::ranges::find(metrics, value.metric) == metrics.end()) metrics.push_back(value.metric);
+    std::string& cell = cells[value.pipeline][value.selector];
+    std::ostringstream number;
+    number << std::fixed << std::setprecision(3) << value.mean;
+    cell += (cell.empty() ? "" : " / ") + number.str();
+  }
+  lines.push_back("means of " + printable(joined_with(" / ", metrics)) + " by the views of each selector:");
+  for (const auto& [pipeline, selectors] : cells) {
+    std::string line = printable(pipeline) + ":";
+    for (const auto& [selector, cell] : selectors) line += "  " + printable(selector) + " " + cell;
+    lines.push_back(line);
+  }
+  return lines;
+}
+
 }  // namespace
 
 std::string description_of(const Model& model) {
@@ -53,8 +78,11 @@ std::string description_of(const Model& model) {
     line("preprocessing", preprocessing_text(model.preprocessing));
   }
   line("head", head_text(model));
+  line("weights", name_of(model.precision));
   line("angles", "theta, the azimuth, and phi, the elevation of the camera, in degrees; (90, 90) is the top view");
   line("trained on", trained_on_text(model.trained_on));
+  const std::vector<std::string> reached = held_out_lines(model.held_out);
+  for (std::size_t i = 0; i < reached.size(); ++i) line(i == 0 ? "reached" : "", reached[i]);
   if (!model.seen.mean.empty())
     line("shapes", joined("up to ", model.seen.limit,
                           " standard deviations from their mean; of a shape farther away, the "
