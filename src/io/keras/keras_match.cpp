@@ -4,22 +4,10 @@
 #include <map>
 
 #include "base/text.h"
+#include "io/keras/snake_case.h"
 
 namespace svnet::io {
 namespace {
-
-/// "SeparableConv2D" -> "separable_conv2d", as Keras makes layer names of class names.
-std::string snake_case(const std::string& name) {
-  std::string text;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    const bool upper = name[i] >= 'A' && name[i] <= 'Z';
-    const bool next_lower = i + 1 < name.size() && name[i + 1] >= 'a' && name[i + 1] <= 'z';
-    const bool after_lower = i > 0 && name[i - 1] >= 'a' && name[i - 1] <= 'z';
-    if (upper && i > 0 && (after_lower || next_lower)) text += '_';
-    text += upper ? static_cast<char>(name[i] - 'A' + 'a') : name[i];
-  }
-  return text;
-}
 
 /// Whether Keras made the name by itself, from the layer's class and a counter ("conv2d", "conv2d_7"): such a name says
 /// nothing about the layer's place.
