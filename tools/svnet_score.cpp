@@ -64,8 +64,12 @@ int run(int argc, char** argv, Communicator& communicator) {
         config.dataset.held_out = excluded;
         if (communicator.is_root()) io::check_can_be_written(output, {features_file});
         ViewDataset dataset = io::read_view_dataset(dataset_folder);
-        const Features features = io::read_features(features_file);
+        Features features = io::read_features(features_file);
+        train::name_rows(dataset, features, features_file.string());
         train::check_rows(dataset, features.paths, features_file.string());
+        // Features of other programs say nothing of the images.
+        if (features.dataset_fingerprint.empty())
+          features.dataset_fingerprint = io::fingerprint(dataset, Parallel::shared());
         // Scores need no pixels: features of turned images are as good.
         if (features.dataset_fingerprint != io::fingerprint(dataset, Parallel::shared()))
           dataset.exif_orientation = ExifOrientation::obey;

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Features : FeaturesOrigin {
   std::vector<float> values;                         // (count, dimension)
   std::vector<std::array<double, 2>> theta_phi_deg;  // (count)
   std::vector<std::string> paths;                    // (count) as the dataset names its images
+  /// (count), or empty: the category of each row, in files that name no paths.
+  std::vector<std::int64_t> labels{};
 };
 
 }  // namespace svnet

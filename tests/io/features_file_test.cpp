@@ -53,10 +53,40 @@ TEST_CASE("features have the documented datasets and attributes") {
   const TemporaryFolder folder;
   write_features(folder.path() / "features.h5", example());
   const Hdf5File file = Hdf5File::open(folder.path() / "features.h5");
-  CHECK(file.members("") == std::vector<std::string>{"features", "paths", "th_ph"});
+  CHECK(file.members("") == std::vector<std::string>{"features", "labels", "paths", "th_ph"});
   CHECK(file.shape("th_ph") == std::vector<Index>{2, 2});
   CHECK(file.read<double>("th_ph").values == std::vector<double>{90, 90, 315, 45});
+  CHECK(file.read<std::int64_t>("labels").values == std::vector<std::int64_t>{0, 1});
   CHECK(file.text_attribute("", "input_fingerprint") == "ef56");
+}
+
+TEST_CASE("features, angles and labels of another program are read") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "features.h5";
+  const auto write = [&](std::vector<std::int64_t> labels) {
+    Hdf5File file = Hdf5File::create(path);
+    file.write<double>("features", {2, 3}, std::vector<double>{1, 2, 3, 4, 5, 6});
+    file.write<std::int64_t>("th_ph", {2, 2}, std::vector<std::int64_t>{90, 90, 315, 45});
+    file.write<std::int64_t>("labels", {static_cast<Index>(labels.size())}, labels);
+    file.close();
+  };
+  write({4, 7});
+  const Features features = read_features(path);
+  CHECK(features.paths.empty());
+  CHECK(features.labels == std::vector<std::int64_t>{4, 7});
+  CHECK(features.values == std::vector<float>{1, 2, 3, 4, 5, 6});
+  CHECK(features.theta_phi_deg[1] == std::array<double, 2>{315, 45});
+  CHECK(features.backbone.empty());
+  write({4});
+  CHECK_THROWS_WITH(read_features(path), Contains("dataset 'labels': has 1 rows, 'features' has 2"));
+}
+
+TEST_CASE("images that lie in no category have no labels") {
+  const TemporaryFolder folder;
+  Features features = example();
+  features.paths = {"a.png", "b.png"};
+  write_features(folder.path() / "features.h5", features);
+  CHECK_FALSE(Hdf5File::open(folder.path() / "features.h5").has("labels"));
 }
 
 TEST_CASE("features that are incomplete or not finite are not written and replace no file") {

@@ -25,6 +25,9 @@ namespace {
 
 std::string describe_features(const std::filesystem::path& file) {
   const Features f = io::read_features(file);
+  if (f.paths.empty())
+    return joined("features of ", f.count, " views, ", f.dimension,
+                  " numbers each, with labels instead of paths: of another program");
   return joined("features of ", f.count, " views, ", f.dimension, " numbers each\n  backbone       ",
                 printable(f.backbone), ", layer ", printable(f.output), "\n  preprocessing  ",
                 printable(f.preprocessing), "\n  weights        ", printable(f.weights_sha256), "\n  dataset        ",

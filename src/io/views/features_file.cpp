@@ -1,5 +1,7 @@
 #include "io/views/features_file.h"
 
+#include <map>
+
 #include "base/error.h"
 #include "base/finite.h"
 #include "base/text.h"
@@ -19,8 +21,29 @@ constexpr std::pair<const char*, std::string FeaturesOrigin::*> kAttributes[] = 
     {"input_fingerprint", &FeaturesOrigin::input_fingerprint},
 };
 
+/// Whether the file is of a program that names no paths.
+bool has_labels_only(const Hdf5File& file) { return !file.has("paths") && file.has("labels"); }
+
 void read_origin(const Hdf5File& file, FeaturesOrigin& origin) {
-  for (const auto& [name, member] : kAttributes) origin.*member = file.text_attribute("", name);
+  for (const auto& [name, member] : kAttributes)
+    if (!has_labels_only(file) || file.has_attribute("", name)) origin.*member = file.text_attribute("", name);
+}
+
+/// The number of each path's first folder, in order of appearance; empty if a path has no folder.
+std::vector<std::int64_t> labels_of(const std::vector<std::string>& paths) {
+  std::vector<std::int64_t> labels;
+  std::map<std::string, std::int64_t> numbers;
+  for (const std::string& path : paths) {
+    const std::size_t end = path.find('/');
+    if (end == std::string::npos) return {};
+    labels.push_back(numbers.emplace(path.substr(0, end), static_cast<std::int64_t>(numbers.size())).first->second);
+  }
+  return labels;
+}
+
+/// A row for messages.
+std::string row_name(const Features& features, std::size_t row) {
+  return features.paths.empty() ? joined(row) : joined(row, " (", printable(features.paths[row]), ")");
 }
 
 std::vector<Index> checked_shape(const Hdf5File& file, const std::string& dataset, const std::vector<Index>& shape,
@@ -38,16 +61,17 @@ void check_features(const std::string& file, const Features& features) {
         features.dimension);
   check(static_cast<Index>(features.theta_phi_deg.size()) == features.count, file, ": dataset 'th_ph': has ",
         features.theta_phi_deg.size(), " rows, 'features' has ", features.count);
-  check(static_cast<Index>(features.paths.size()) == features.count, file, ": dataset 'paths': has ",
-        features.paths.size(), " rows, 'features' has ", features.count);
+  const bool has_paths = features.labels.empty() || !features.paths.empty();
+  const std::size_t names = has_paths ? features.paths.size() : features.labels.size();
+  check(static_cast<Index>(names) == features.count, file, ": dataset '", has_paths ? "paths" : "labels", "': has ",
+        names, " rows, 'features' has ", features.count);
   if (const auto bad = first_not_finite(features.values)) {
     const std::size_t row = *bad / static_cast<std::size_t>(features.dimension);
-    fail(file, ": dataset 'features': row ", row, " (", printable(features.paths[row]),
-         ") has a value that is not finite");
+    fail(file, ": dataset 'features': row ", row_name(features, row), " has a value that is not finite");
   }
   for (std::size_t row = 0; row < features.theta_phi_deg.size(); ++row)
-    check(!first_not_finite(features.theta_phi_deg[row]), file, ": dataset 'th_ph': row ", row, " (",
-          printable(features.paths[row]), ") has an angle that is not finite");
+    check(!first_not_finite(features.theta_phi_deg[row]), file, ": dataset 'th_ph': row ", row_name(features, row),
+          " has an angle that is not finite");
 }
 
 }  // namespace
@@ -71,9 +95,15 @@ Features read_features(const std::filesystem::path& path) {
         " columns, expected 2");
   for (std::size_t i = 0; i < angles.values.size(); i += 2)
     features.theta_phi_deg.push_back({angles.values[i], angles.values[i + 1]});
-  Hdf5Array<std::string> paths = file.read<std::string>("paths");
-  checked_shape(file, "paths", paths.shape, 1);
-  features.paths = std::move(paths.values);
+  if (has_labels_only(file)) {
+    Hdf5Array<std::int64_t> labels = file.read<std::int64_t>("labels");
+    checked_shape(file, "labels", labels.shape, 1);
+    features.labels = std::move(labels.values);
+  } else {
+    Hdf5Array<std::string> paths = file.read<std::string>("paths");
+    checked_shape(file, "paths", paths.shape, 1);
+    features.paths = std::move(paths.values);
+  }
   check_features(file.name(), features);
   return features;
 }
@@ -88,6 +118,8 @@ void write_features(const std::filesystem::path& path, const Features& features)
     file.write<float>("features", {features.count, features.dimension}, features.values);
     file.write<double>("th_ph", {features.count, 2}, angles);
     file.write<std::string>("paths", {features.count}, features.paths);
+    if (const std::vector<std::int64_t> labels = labels_of(features.paths); !labels.empty())
+      file.write<std::int64_t>("labels", {features.count}, labels);
     file.close();
   });
 }

@@ -6,7 +6,9 @@
 namespace svnet::io {
 
 // The HDF5 datasets are `features` (N, D) float32, `th_ph` (N, 2) float64 in degrees, and `paths` (N) UTF-8. The
-// attributes of the root have the names of the members of FeaturesOrigin.
+// attributes of the root have the names of the members of FeaturesOrigin. If the first parts of all paths are folders,
+// `labels` (N) int64 are their numbers, in order of appearance: for programs that know the datasets `features`, `th_ph`
+// and `labels` alone. Files of such programs are read too: without `paths` and attributes, but with `labels`.
 
 /// Throws Error that names the file, the HDF5 dataset and the row unless the shapes agree, there is at least one value,
 /// and all values are finite.
