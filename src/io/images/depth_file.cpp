@@ -29,8 +29,10 @@ const DepthImage& checked(const std::string& name, const DepthImage& image) {
 float depth_or_zero(double z_m) { return z_m > 0 && z_m < kFarthest_m ? static_cast<float>(z_m) : 0.0f; }
 
 DepthImage read_depth(const fs::path& path, std::optional<double> unit_m) {
-  const std::vector<std::uint8_t> file = image_contents(path);
-  const std::string name = path.string();
+  return decode_depth(path.string(), image_contents(path), unit_m);
+}
+
+DepthImage decode_depth(const std::string& name, Bytes file, std::optional<double> unit_m) {
   if (is_npy(file)) return checked(name, decode_npy_depth(name, file, unit_m));
   check(!has_bytes(file, 0, "PK\3\4"), name, ": is a ZIP archive (.npz?), expected one array, by numpy.save");
   if (image_format(file) != ImageFormat::png) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <string>
 
 #include "image/depth_image.h"
 
@@ -14,6 +15,9 @@ namespace svnet::io {
 /// integers are millimetres and floats metres. Depth <= 0, NaN, >= 100 m and the 16-bit level 65535 mean: not measured;
 /// these pixels become 0. Throws Error that names `path` for any other file, and if no pixel was measured.
 DepthImage read_depth(const std::filesystem::path& path, std::optional<double> unit_m = {});
+
+/// The same for the contents of a file in memory. Errors call it `name`.
+DepthImage decode_depth(const std::string& name, std::span<const std::uint8_t> file, std::optional<double> unit_m = {});
 
 /// Writes a 16-bit grey PNG in millimetres. Depth above 65.534 m becomes 0, not measured. Throws Error that names
 /// `path`.

@@ -22,8 +22,11 @@ Image decoded(const std::string& name, Bytes file) {
 }  // namespace
 
 StoredImage read_stored_image(const std::filesystem::path& path) {
-  const std::vector<std::uint8_t> file = image_contents(path);
-  return {decoded(path.string(), file), exif_orientation(file)};
+  return decode_stored_image(path.string(), image_contents(path));
+}
+
+StoredImage decode_stored_image(const std::string& name, Bytes file) {
+  return {decoded(name, file), exif_orientation(file)};
 }
 
 Image read_image(const std::filesystem::path& path, ExifOrientation exif) {

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <span>
+#include <string>
 #include <string>
 
 #include "base/exif_orientation.h"
@@ -25,6 +27,9 @@ struct StoredImage {
 
 /// Reads a file once, for both. Throws Error as read_image does.
 StoredImage read_stored_image(const std::filesystem::path& path);
+
+/// The same for the contents of a file in memory. Errors call it `name`.
+StoredImage decode_stored_image(const std::string& name, std::span<const std::uint8_t> file);
 
 /// The EXIF orientation of a file, 1 to 8, without decoding it; 1 if it has none, or cannot be read.
 int read_exif_orientation(const std::filesystem::path& path);
