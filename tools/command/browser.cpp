@@ -33,13 +33,17 @@ bool start(const char* program, const std::string& argument) {
 }  // namespace
 
 void show_in_browser(const std::filesystem::path& file, Console& console) {
+  show_address_in_browser(std::filesystem::absolute(file).string(), console);
+}
+
+void show_address_in_browser(const std::string& address, Console& console) {
   const bool desktop = !environment_variable("DISPLAY").empty() || !environment_variable("WAYLAND_DISPLAY").empty();
-  const std::string path = std::filesystem::absolute(file).string();
   if (!desktop) {
-    console.line("There is no desktop here, and so no browser; open " + path + " on another machine.");
+    console.line("There is no desktop here, and so no browser; open " + address + " on another machine.");
     return;
   }
-  if (!start("xdg-open", path)) console.line("There is no xdg-open here to show a browser; open " + path + " in one.");
+  if (!start("xdg-open", address))
+    console.line("There is no xdg-open here to show a browser; open " + address + " in one.");
 }
 
 }  // namespace svnet::command
