@@ -55,6 +55,7 @@ const std::vector<Room> kRooms{
     {"exports",
      {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "data/model_part.h", "io/files", "io/keras",
       "io/models", "io/onnx", "io/tensors", "predict"}},
+    {"serve", {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "io/images", "predict"}},
     {"simulation", {"base", "image", "view", "localise", "data", "io/*"}},
     {"train/config", {"base", "frame", "semantics", "nn/*", "models"}},
     {"train",

@@ -1,0 +1,20 @@
+#pragma once
+#include <cstddef>
+
+#include "base/index.h"
+
+namespace svnet::serve {
+
+/// What a server accepts. Memory is bounded by (parallel + waiting) bodies, and `parallel` images of kMostPixels.
+struct Limits {
+  std::size_t body_bytes = std::size_t{32} << 20;
+  std::size_t header_bytes = std::size_t{16} << 10;  // the request line and all headers
+  Index poses = 4096;                                // of one request
+  double seconds = 30;                               // to read a request, to wait for its turn, and to write the answer
+  double header_seconds = 10;                        // to read the request line and headers
+  Index parallel = 2;                                // predictions at the same time
+  Index waiting = 16;                                // predictions that wait for their turn
+  Index connections = 64;
+};
+
+}  // namespace svnet::serve
