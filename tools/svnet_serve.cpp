@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
       .shows_default();
   command
       .add("--parallel", limits.parallel,
-           "Predictions at the same time; up to 16 more wait, others are told to try again")
+           "Predictions at the same time; up to 64 more wait, others are told to try again")
       .in_range(1, 64)
       .shows_default();
   command.add_flag("--open", open, "Shows the page in a browser");

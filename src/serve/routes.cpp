@@ -73,8 +73,8 @@ Routes::Routes(const Model& model, const InferenceOptions& options, const Limits
       guard_(std::move(guard)),
       predictor_(model, options),
       model_json_(text_of(model_json(model, limits))),
-      bodies_(limits.parallel + limits.waiting, 0),
-      predictions_(limits.parallel, limits.waiting) {}
+      bodies_(kBodies * limits.body_bytes, 0),
+      predictions_(static_cast<std::uint64_t>(limits.parallel), limits.waiting) {}
 
 Response Routes::answer(const Request& request) try {
   guard_.check_request(request);
@@ -112,7 +112,7 @@ Response Routes::routed(const Request& request) {
 Response Routes::predicted(const Request& request) {
   const std::size_t bytes = body_size(request, limits_.body_bytes);
   const std::string type = body_type(request);
-  const Turnstile::Turn place = bodies_.enter(Clock::now());
+  const Turnstile::Turn place = bodies_.enter(Clock::now(), bytes);
   const std::string body = request.read_body(bytes);
   const Inputs inputs = inputs_of(request, body, type);
   expect(!inputs.image.empty(), 400, "there is no image: send it as the body, or as the part 'image' of a form");

@@ -26,8 +26,8 @@ class Routes {
   Guard guard_;
   predict::Predictor predictor_;
   std::string model_json_;
-  Turnstile bodies_;       // requests whose bodies are in memory
-  Turnstile predictions_;  // requests that compute
+  Turnstile bodies_;       // bytes of bodies in memory
+  Turnstile predictions_;  // predictions at the same time
 };
 
 }  // namespace svnet::serve

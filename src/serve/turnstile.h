@@ -1,6 +1,7 @@
 #pragma once
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <deque>
 #include <mutex>
 
@@ -10,35 +11,38 @@ namespace svnet::serve {
 
 using Clock = std::chrono::steady_clock;
 
-/// Lets a number of callers through at the same time, and a number wait, first come, first served. Thread-safe.
+/// Lets callers through as long as their weights sum up to no more than a capacity, and lets a number of callers wait,
+/// first come, first served. Thread-safe.
 class Turnstile {
  public:
-  Turnstile(Index at_once, Index waiting) : at_once_(at_once), most_waiting_(waiting) {}
+  Turnstile(std::uint64_t capacity, Index waiting) : capacity_(capacity), most_waiting_(waiting) {}
   Turnstile(const Turnstile&) = delete;
   Turnstile& operator=(const Turnstile&) = delete;
 
   /// A caller's turn, which ends with the object.
   class Turn {
    public:
-    explicit Turn(Turnstile& turnstile) : turnstile_(turnstile) {}
-    ~Turn() { turnstile_.leave(); }
+    Turn(Turnstile& turnstile, std::uint64_t weight) : turnstile_(turnstile), weight_(weight) {}
+    ~Turn() { turnstile_.leave(weight_); }
     Turn(const Turn&) = delete;
     Turn& operator=(const Turn&) = delete;
 
    private:
     Turnstile& turnstile_;
+    std::uint64_t weight_;
   };
 
-  /// Waits for a turn. Throws Refusal 503 at once if too many wait, and at `deadline`.
-  Turn enter(Clock::time_point deadline);
+  /// Waits for a turn. Throws Refusal 503 at once if too many wait, and at `deadline`. Requires weight <= capacity.
+  Turn enter(Clock::time_point deadline, std::uint64_t weight = 1);
 
  private:
-  void leave();
+  void leave(std::uint64_t weight);
 
-  Index at_once_, most_waiting_;
+  std::uint64_t capacity_;
+  Index most_waiting_;
   std::mutex mutex_;
   std::condition_variable changed_;
-  Index inside_ = 0;
+  std::uint64_t inside_ = 0;         // the sum of the weights
   std::deque<const void*> waiting_;  // one entry per caller, first come first
 };
 

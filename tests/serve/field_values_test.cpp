@@ -16,7 +16,9 @@ TEST_CASE("fields are taken once, and others are named") {
 }
 
 TEST_CASE("a repeated field, a wrong number and a wrong name are refused") {
-  CHECK(refusal_of([] { FieldValues(Fields{{"a", "1"}, {"b", "2"}, {"a", "3"}}); }) == "400 the field a is there twice");
+  CHECK(refusal_of([] {
+          FieldValues(Fields{{"a", "1"}, {"b", "2"}, {"a", "3"}});
+        }) == "400 the field a is there twice");
   for (const char* wrong : {"", "x", "1x", " 1", "nan", "inf", "1e999", "1,2"}) {
     FieldValues fields(Fields{{"a", wrong}});
     CAPTURE(wrong);

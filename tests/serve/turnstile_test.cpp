@@ -20,6 +20,17 @@ TEST_CASE("a turnstile that is full refuses at once, or at the deadline") {
   CHECK(Clock::now() - begin >= 50ms);
 }
 
+TEST_CASE("a turnstile counts weights") {
+  Turnstile turnstile(10, 0);
+  const auto first = turnstile.enter(Clock::now(), 7);
+  CHECK_THAT(refusal_of([&] { (void)turnstile.enter(Clock::now(), 4); }), Catch::StartsWith("503 "));
+  {
+    const auto second = turnstile.enter(Clock::now(), 3);
+    CHECK_THAT(refusal_of([&] { (void)turnstile.enter(Clock::now(), 1); }), Catch::StartsWith("503 "));
+  }
+  CHECK(refusal_of([&] { (void)turnstile.enter(Clock::now(), 3); }) == "");
+}
+
 TEST_CASE("a turnstile lets no more through than it says, and all in the end") {
   Turnstile turnstile(2, 30);
   std::atomic<int> inside = 0, most = 0, done = 0;
