@@ -69,7 +69,7 @@ int main(int argc, char** argv) {
       wrong_usage("--host ", host, " lets other machines in; give a token that they must send by --token-file");
     serve::Guard guard;
     if (!token_file.empty()) guard.token = serve::read_token(token_file);
-    if (is_private) guard.hosts = serve::loopback_hosts(host);
+    if (guard.token.empty()) guard.hosts = serve::loopback_hosts(host);
     serve::Routes routes(io::read_model(model_file), inference_options_from_environment(), limits, std::move(guard));
     const serve::Listener listener(host, port);
     console.result(listener.address());

@@ -10,7 +10,7 @@ struct Guard {
   /// Throws Refusal 401 unless requests for /v1/ carry it as "Authorization: Bearer TOKEN". Empty: no token.
   std::string token;
   /// The host names that requests may give, without port, in lower case. It keeps out a web site that gives its own
-  /// name to this machine's address (DNS rebinding). Empty: any.
+  /// name to this machine's address (DNS rebinding), as a token does. Empty: any.
   std::vector<std::string> hosts;
 
   /// Throws Refusal: 421 for another host, 403 for what a page of another site sends, 401 without the token.

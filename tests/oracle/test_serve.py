@@ -376,6 +376,23 @@ def black_png(width, height):
     return b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", header) + chunk(b"IDAT", rows) + chunk(b"IEND", b"")
 
 
+def test_server_full_of_idle_connections(serve):
+    """Connections that say nothing take all places, until they are closed or time is up."""
+    server = serve("axis", "--timeout", "3")
+    idle = [socket.create_connection(("127.0.0.1", server.port)) for _ in range(128)]
+    time.sleep(0.3)
+    refused = server.talk(b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n")
+    assert refused.startswith(b"HTTP/1.1 503 ") and b'{"error":' in refused
+    for connection in idle[:10]:
+        connection.close()
+    time.sleep(0.3)
+    assert server.ask("GET", "/healthz")[0] == 200
+    time.sleep(3)
+    assert all(connection.recv(1000) == b"" for connection in idle[10:])
+    for connection in idle[10:]:
+        connection.close()
+
+
 def test_server_under_load(serve, files, report):
     """2,000 requests, 50 at a time, good and bad ones mixed: every one is answered with its status."""
     server = serve("depth", "--timeout", "2", "--max-upload", "4")

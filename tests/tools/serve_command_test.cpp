@@ -184,6 +184,10 @@ TEST_CASE("svnet-serve asks for its token") {
   CHECK_THAT(refused, Catch::Contains("WWW-Authenticate: Bearer"));
   CHECK_THAT(server.talk(request + "Authorization: Bearer 0123456789abcdef\r\n\r\n"),
              Catch::StartsWith("HTTP/1.1 200 "));
+  // A proxy passes on the host name that its clients use.
+  CHECK_THAT(server.talk("GET /v1/model HTTP/1.1\r\nHost: robot.example\r\nOrigin: https://robot.example\r\n"
+                         "Authorization: Bearer 0123456789abcdef\r\n\r\n"),
+             Catch::StartsWith("HTTP/1.1 200 "));
 }
 
 TEST_CASE("svnet-serve says what is wrong with its arguments") {

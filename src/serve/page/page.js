@@ -20,6 +20,7 @@ let image = null, depth = null;  // files
 let prediction = null;
 let chosen = null;               // the pose whose camera is shown
 let asked = 0;                   // the number of the last prediction that was asked for
+let timer = 0;                   // of later()
 
 function say(text) {
   byId("status").textContent = text;
@@ -70,7 +71,13 @@ async function predict() {
   }
   say("Computing…");
   const number = ++asked;
-  const answer = await api.predict(image, depth, wanted);
+  let answer = null;
+  try {
+    answer = await api.predict(image, depth, wanted);
+  } catch (problem) {
+    forgetPrediction();
+    throw problem;
+  }
   if (number !== asked) return;  // a later one is under way
   prediction = answer;
   say(`${answer.views.length} camera poses scored.`);
@@ -80,6 +87,7 @@ async function predict() {
 async function takeImage(file) {
   image = file;
   depth = null;
+  if (model?.uses_depth) forgetPrediction();  // until its depth is chosen
   byId("depth-file").value = "";
   if (topImage.src) URL.revokeObjectURL(topImage.src);
   topImage.src = URL.createObjectURL(file);
@@ -87,6 +95,12 @@ async function takeImage(file) {
 }
 
 // Results.
+
+function forgetPrediction() {
+  prediction = null;
+  clearTimeout(timer);
+  byId("results").hidden = true;
+}
 
 function showPrediction() {
   byId("results").hidden = false;
@@ -117,7 +131,6 @@ function showBest() {
   later(showCamera);
 }
 
-let timer = 0;
 /** Runs an action once the user pauses. */
 function later(action) {
   clearTimeout(timer);
