@@ -1,10 +1,11 @@
-// The page: inputs, a prediction, the half-sphere with its tools, and the best pose.
+// The page: inputs, a prediction, and what is shown of it.
 import { Api } from "./api.js";
 import { Camera } from "./camera.js";
 import { SCALE_GRADIENT } from "./colours.js";
 import { HalfSphere } from "./half_sphere.js";
 import { Region } from "./region.js";
 import { jsonText, matrixText, modelText, poseText, showFacts, showNotes, showTable } from "./results.js";
+import { connectTools } from "./sphere_tools.js";
 
 const byId = (id) => document.getElementById(id);
 const api = new Api();
@@ -75,6 +76,7 @@ async function predict() {
   try {
     answer = await api.predict(image, depth, wanted);
   } catch (problem) {
+    if (number !== asked) return;
     forgetPrediction();
     throw problem;
   }
@@ -163,73 +165,6 @@ async function copy(button) {
   }
 }
 
-// The tools of the half-sphere.
-
-const STEP = 5;  // degrees or pixels of an arrow key
-let cursor = [0, 0, 1];
-
-const tool = () => document.querySelector("input[name=tool]:checked").value;
-const radius_deg = () => Number(byId("brush").value);
-
-function chooseTool(name) {
-  document.querySelector(`input[name=tool][value=${name}]`).checked = true;
-  byId("sphere").classList.toggle("paints", name !== "turn");
-  sphere.brush = name === "turn" ? null : { direction: cursor, radius_deg: radius_deg() };
-}
-
-function applyBrush() {
-  region.apply(cursor, radius_deg(), tool() === "paint");
-  showBest();
-}
-
-/** Moves the brush on the screen, and stays on the half-sphere. */
-function moveBrush(right, down) {
-  const [left, top] = sphere.placeOf(cursor);
-  cursor = sphere.directionAt(left + right, top + down) ?? cursor;
-  sphere.brush = { direction: cursor, radius_deg: radius_deg() };
-}
-
-function connectSphere(canvas) {
-  let last = null;  // where the pointer was
-  const place = (event) => {
-    const box = canvas.getBoundingClientRect();
-    return [event.clientX - box.left, event.clientY - box.top];
-  };
-  canvas.addEventListener("pointerdown", (event) => {
-    canvas.setPointerCapture(event.pointerId);
-    last = place(event);
-    if (tool() !== "turn" && sphere.directionAt(...last)) {
-      cursor = sphere.directionAt(...last);
-      applyBrush();
-    }
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    const at = place(event);
-    if (tool() === "turn") {
-      if (last) sphere.turn(at[0] - last[0], at[1] - last[1]);
-    } else if (sphere.directionAt(...at)) {
-      cursor = sphere.directionAt(...at);
-      sphere.brush = { direction: cursor, radius_deg: radius_deg() };
-      if (last) applyBrush();
-    }
-    if (last) last = at;
-  });
-  for (const name of ["pointerup", "pointercancel"]) canvas.addEventListener(name, () => { last = null; });
-  canvas.addEventListener("keydown", (event) => {
-    const arrows = { ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, -1], ArrowDown: [0, 1] };
-    const tools = { t: "turn", p: "paint", e: "erase" };
-    const arrow = arrows[event.key], named = tools[event.key.toLowerCase()];
-    if (event.ctrlKey || event.metaKey || event.altKey) return;
-    if (arrow && tool() === "turn") sphere.turn(2 * STEP * arrow[0], 2 * STEP * arrow[1]);
-    else if (arrow) moveBrush(STEP * arrow[0], STEP * arrow[1]);
-    else if (named) chooseTool(named);
-    else if (event.key === "Home") sphere.lookFromAbove();
-    else if (event.key === " " && tool() !== "turn") applyBrush();
-    else return;
-    event.preventDefault();
-  });
-}
-
 function connectInputs() {
   byId("choose-image").addEventListener("click", () => byId("image-file").click());
   byId("image-file").addEventListener("change", (event) => {
@@ -280,15 +215,7 @@ function connectResults() {
   for (const id of ["radius", "centre-x", "centre-y", "centre-z", "frame"])
     byId(id).addEventListener("input", () => later(showCamera));
   for (const button of document.querySelectorAll("button.copy")) button.addEventListener("click", () => copy(button));
-  for (const input of document.querySelectorAll("input[name=tool]"))
-    input.addEventListener("change", () => chooseTool(input.value));
-  byId("brush").addEventListener("input", () => chooseTool(tool()));
-  byId("from-above").addEventListener("click", () => sphere.lookFromAbove());
-  byId("reset-region").addEventListener("click", () => {
-    region.clear();
-    showBest();
-  });
-  connectSphere(byId("sphere"));
+  connectTools(sphere, region, showBest);
 }
 
 connectInputs();
