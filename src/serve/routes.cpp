@@ -43,7 +43,7 @@ Inputs inputs_of(const Request& request, std::string_view body, const std::strin
 
 /// The Content-Type of a body that may hold an image. Throws Refusal 415 for another one.
 std::string body_type(const Request& request) {
-  const std::string type = request.header("content-type").value_or("application/octet-stream");
+  std::string type = request.header("content-type").value_or("application/octet-stream");
   const std::string kind = lower_case(type.substr(0, type.find_first_of("; ")));
   expect(kind == "multipart/form-data" || kind.starts_with("image/") || kind == "application/octet-stream", 415,
          "the body is ", printable(kind),

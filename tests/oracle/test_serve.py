@@ -128,7 +128,7 @@ def test_region_is_painted_erased_and_reset(serve, chromium, files):
     sphere.scroll_into_view_if_needed()
     box = sphere.bounding_box()
     middle = (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-    radius = 0.41 * box["width"]
+    radius = 0.39 * box["width"]
 
     def drag(right, down, steps=10):
         page.page.mouse.move(*middle)

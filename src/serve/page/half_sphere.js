@@ -98,7 +98,7 @@ export class HalfSphere {
 
   /** The middle of the half-sphere's base, so that all of it is in the middle of the canvas, and its radius. */
   #place(width, height) {
-    const radius = 0.41 * Math.min(width, height);
+    const radius = 0.39 * Math.min(width, height);
     return { middleX: width / 2, middleY: height / 2 + 0.5 * radius * (1 - Math.cos(this.#tilt)), radius };
   }
 
