@@ -31,7 +31,7 @@ std::string table_text(const std::vector<CameraPose>& poses, const std::vector<f
 }
 
 std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores,
-                      const predict::ScoreHead::Familiarity& top_view) {
+                      const predict::Familiarity& top_view) {
   nlohmann::ordered_json views = nlohmann::ordered_json::array();
   for (const std::size_t i : predict::best_first(scores))
     views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});

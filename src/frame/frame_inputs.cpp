@@ -1,5 +1,7 @@
 #include "frame/frame_inputs.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "frame/turns.h"
 
@@ -8,22 +10,6 @@ namespace {
 
 PoseInputOptions options_of(const FrameSpec& spec) {
   return has_axis(spec.frame) ? input_options(spec.depth) : PoseInputOptions{.axis = false};
-}
-
-/// Adds the inputs of the group turned.
-void add_turned_inputs(std::vector<double>& inputs, Index component_count, std::span<const float> turns,
-                       const view::CameraPose& pose) {
-  const view::CameraPose clamped = view::clamped_pose(pose);
-  const std::array<double, kTurns> weights = turn_weights(clamped);
-  const double x = scaled_elevation(clamped);
-  const auto components = static_cast<std::size_t>(component_count), first = inputs.size();
-  inputs.resize(first + 2 * components, 0.0);
-  for (std::size_t turn = 0; turn < weights.size(); ++turn) {
-    if (weights[turn] == 0) continue;
-    const std::span<const float> values = turns.subspan(turn * components, components);
-    for (std::size_t i = 0; i < components; ++i) inputs[first + i] += weights[turn] * static_cast<double>(values[i]);
-  }
-  for (std::size_t i = 0; i < components; ++i) inputs[first + components + i] = x * inputs[first + i];
 }
 
 }  // namespace
@@ -45,20 +31,42 @@ void check_feature_count(const FrameSpec& spec, std::span<const float> features)
         " features of a top view, expected ", feature_count(spec));
 }
 
-std::vector<double> frame_inputs(const FrameSpec& spec, std::span<const float> features, const view::CameraPose& pose,
-                                 double trust) {
+FrameInputs::FrameInputs(const FrameSpec& spec, std::span<const float> features, double trust)
+    : options_(options_of(spec)), components_(static_cast<std::size_t>(spec.components)), trust_(trust) {
   check_feature_count(spec, features);
-  TopFrame top;
   if (has_axis(spec.frame)) {
-    top = from_values(features.first<kTopFrameSize>());
+    top_ = from_values(features.first<kTopFrameSize>());
     features = features.subspan(kTopFrameSize);
   }
-  std::vector<double> inputs = pose_inputs(top.axis, top.heights, pose, options_of(spec));
-  if (spec.components > 0) add_turned_inputs(inputs, spec.components, features, pose);
-  if (trust == 1) return inputs;
-  const std::vector<InputGroup> groups = input_groups(spec);
-  for (std::size_t i = 0; i < inputs.size(); ++i)
-    if (is_of_shape(groups[i])) inputs[i] *= trust;
+  turns_ = features;
+}
+
+void FrameInputs::write(const view::CameraPose& pose, std::span<double> inputs) const {
+  const std::size_t count = write_pose_inputs(top_.axis, top_.heights, pose, options_, trust_, inputs);
+  if (components_ > 0) write_turned(view::clamped_pose(pose), inputs.subspan(count));
+}
+
+/// The inputs of the group turned. Requires a clamped pose.
+void FrameInputs::write_turned(const view::CameraPose& pose, std::span<double> inputs) const {
+  const std::array<double, kTurns> weights = turn_weights(pose);
+  const double x = scaled_elevation(pose);
+  const std::span<double> means = inputs.first(components_), times_x = inputs.subspan(components_);
+  std::ranges::fill(means, 0.0);
+  for (std::size_t turn = 0; turn < weights.size(); ++turn) {
+    if (weights[turn] == 0) continue;
+    const std::span<const float> values = turns_.subspan(turn * components_, components_);
+    for (std::size_t i = 0; i < components_; ++i) means[i] += weights[turn] * static_cast<double>(values[i]);
+  }
+  for (std::size_t i = 0; i < components_; ++i) {
+    times_x[i] = x * means[i] * trust_;
+    means[i] *= trust_;
+  }
+}
+
+std::vector<double> frame_inputs(const FrameSpec& spec, std::span<const float> features, const view::CameraPose& pose,
+                                 double trust) {
+  std::vector<double> inputs(static_cast<std::size_t>(input_count(spec)));
+  FrameInputs(spec, features, trust).write(pose, inputs);
   return inputs;
 }
 

@@ -12,17 +12,14 @@
 namespace svnet::frame {
 namespace {
 
+/// A number, or the product of two.
 struct Named {
-  std::string name;
+  const char* name;
   double value;
+  const char* factor = nullptr;  // the name of the second number
 };
 
-Named times(const Named& a, const Named& b) { return {a.name + "*" + b.name, a.value * b.value}; }
-
-struct PoseInput {
-  Named named;
-  InputGroup group;
-};
+Named times(const Named& a, const Named& b) { return {a.name, a.value * b.value, b.name}; }
 
 /// F and G.
 double scaled_fill(const ObjectAxis& axis) {
@@ -30,13 +27,13 @@ double scaled_fill(const ObjectAxis& axis) {
   return std::log(std::max(axis.fill, kLeastFill)) + 2.5;
 }
 
-/// One list for values, names and groups, so that they cannot differ.
-std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
-                                   const PoseInputOptions& options) {
+/// Calls add(group, named) for each input, in order: one list for values, names and groups, so that they cannot differ.
+/// Allocates nothing.
+template <class Add>
+void list_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
+                 const PoseInputOptions& options, const Add& add) {
   constexpr double kLow_deg = 10;
   constexpr double kRadians = std::numbers::pi / 180;
-  std::vector<PoseInput> inputs;
-  const auto add = [&](InputGroup group, const Named& named) { inputs.push_back({named, group}); };
 
   const Named x{"x", scaled_elevation(pose)};
   add(InputGroup::phi, x);
@@ -80,7 +77,6 @@ std::vector<PoseInput> list_inputs(const ObjectAxis& axis, const Heights& height
     add(InputGroup::heights, missing);
     add(InputGroup::heights, times(missing, x));
   }
-  return inputs;
 }
 
 }  // namespace
@@ -104,25 +100,35 @@ double scaled_elevation(const view::CameraPose& pose) { return (pose.phi_deg - 6
 
 bool is_top(const view::CameraPose& pose) { return pose.phi_deg >= 89.5; }
 
-std::vector<double> pose_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
-                                const PoseInputOptions& options) {
+std::size_t write_pose_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
+                              const PoseInputOptions& options, double trust, std::span<double> inputs) {
   const std::string problem = view::pose_problem(pose);
   check(problem.empty(), "[frame] ", problem);
-  std::vector<double> values;
-  for (const PoseInput& input : list_inputs(axis, heights, view::clamped_pose(pose), options))
-    values.push_back(input.named.value);
+  std::size_t count = 0;
+  list_inputs(axis, heights, view::clamped_pose(pose), options, [&](InputGroup group, const Named& named) {
+    inputs[count++] = is_of_shape(group) ? named.value * trust : named.value;
+  });
+  return count;
+}
+
+std::vector<double> pose_inputs(const ObjectAxis& axis, const Heights& heights, const view::CameraPose& pose,
+                                const PoseInputOptions& options) {
+  std::vector<double> values(pose_input_groups(options).size());
+  write_pose_inputs(axis, heights, pose, options, 1, values);
   return values;
 }
 
 std::vector<std::string> pose_input_names(const PoseInputOptions& options) {
   std::vector<std::string> names;
-  for (const PoseInput& input : list_inputs({}, {}, {}, options)) names.push_back(input.named.name);
+  list_inputs({}, {}, {}, options, [&](InputGroup, const Named& named) {
+    names.push_back(named.factor == nullptr ? named.name : joined(named.name, "*", named.factor));
+  });
   return names;
 }
 
 std::vector<InputGroup> pose_input_groups(const PoseInputOptions& options) {
   std::vector<InputGroup> groups;
-  for (const PoseInput& input : list_inputs({}, {}, {}, options)) groups.push_back(input.group);
+  list_inputs({}, {}, {}, options, [&](InputGroup group, const Named&) { groups.push_back(group); });
   return groups;
 }
 

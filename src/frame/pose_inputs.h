@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -60,6 +61,11 @@ bool is_top(const view::CameraPose& pose);
 /// Throws Error for a pose that is out of range (view/camera_pose.h). Heights are not used without options.heights.
 std::vector<double> pose_inputs(const ObjectAxis&, const Heights&, const view::CameraPose&,
                                 const PoseInputOptions& = {});
+
+/// Writes the same inputs, those of groups of the shape (is_of_shape) multiplied by `trust`, and returns how many there
+/// are. Requires room for them. Allocates nothing.
+std::size_t write_pose_inputs(const ObjectAxis&, const Heights&, const view::CameraPose&, const PoseInputOptions&,
+                              double trust, std::span<double> inputs);
 
 /// The name of each input, such as "a2*x": what the list above calls it.
 std::vector<std::string> pose_input_names(const PoseInputOptions& = {});

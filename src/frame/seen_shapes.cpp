@@ -8,20 +8,26 @@
 
 namespace svnet::frame {
 
-std::vector<double> shape_numbers(const FrameSpec& spec, std::span<const float> features) {
+void shape_numbers(const FrameSpec& spec, std::span<const float> features, std::span<double> numbers) {
   check_feature_count(spec, features);
-  std::vector<double> numbers;
+  std::size_t first = 0;
   if (has_axis(spec.frame)) {
     const TopFrame top = from_values(features.first<kTopFrameSize>());
     const ObjectShape shape = shape_of(top.axis, top.heights);
-    numbers = {shape.elongation, shape.skew, shape.fill};
-    if (spec.depth == DepthChoice::heights) numbers.insert(numbers.end(), {shape.height, shape.slimness});
+    for (const double number : {shape.elongation, shape.skew, shape.fill}) numbers[first++] = number;
+    if (spec.depth == DepthChoice::heights)
+      for (const double number : {shape.height, shape.slimness}) numbers[first++] = number;
     features = features.subspan(kTopFrameSize);
   }
-  const auto components = static_cast<std::size_t>(spec.components), first = numbers.size();
-  numbers.resize(first + components, 0.0);
+  std::ranges::fill(numbers.subspan(first), 0.0);
+  const auto components = static_cast<std::size_t>(spec.components);
   for (std::size_t i = 0; i < features.size(); ++i)
     numbers[first + i % components] += static_cast<double>(features[i]) / static_cast<double>(kTurns);
+}
+
+std::vector<double> shape_numbers(const FrameSpec& spec, std::span<const float> features) {
+  std::vector<double> numbers(static_cast<std::size_t>(shape_number_count(spec)));
+  shape_numbers(spec, features, numbers);
   return numbers;
 }
 

@@ -18,6 +18,9 @@ struct SeenShapes {
 /// those of frame_inputs.h. Throws Error unless there are feature_count() of them.
 std::vector<double> shape_numbers(const FrameSpec& spec, std::span<const float> features);
 
+/// Writes the same numbers, shape_number_count() of them. Allocates nothing.
+void shape_numbers(const FrameSpec& spec, std::span<const float> features, std::span<double> numbers);
+
 /// How many shape_numbers() there are.
 Index shape_number_count(const FrameSpec& spec);
 

@@ -5,10 +5,9 @@
 
 namespace svnet::predict {
 
-void check_finite(const Tensor& values, const char* what, std::size_t first) {
-  const auto all = values.values<float>();
-  if (const auto bad = first_not_finite(all))
-    fail("[predict] ", what, " ", first + *bad, " is ", all[*bad], ", not a finite number");
+void check_finite(std::span<const float> values, const char* what, std::size_t first) {
+  if (const auto bad = first_not_finite(values))
+    fail("[predict] ", what, " ", first + *bad, " is ", values[*bad], ", not a finite number");
 }
 
 }  // namespace svnet::predict

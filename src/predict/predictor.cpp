@@ -60,7 +60,7 @@ Tensor Predictor::embedding(const Image& top) const {
     view::apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
                          batch.data<float>() + symmetry * preprocessing_.size());
   const Tensor features = backbone_->run({batch});
-  check_finite(features, "feature");
+  check_finite(features.values<float>(), "feature");
   return features.reshaped({1, feature_count()});
 }
 
@@ -79,7 +79,7 @@ Tensor Predictor::values_of_turns(const Image& top) const {
     const Tensor part = backbone_->run({batch});
     std::copy_n(part.data<float>(), part.size(), values.data<float>() + begin * components);
   });
-  check_finite(values, "feature");
+  check_finite(values.values<float>(), "feature");
   return values;
 }
 

@@ -33,7 +33,7 @@ class Predictor {
   bool uses_depth() const { return depth_ != frame::DepthChoice::none; }
 
   /// ScoreHead::familiarity of features that embed has returned.
-  ScoreHead::Familiarity familiarity(const Tensor& features) const { return head_.familiarity(features); }
+  Familiarity familiarity(const Tensor& features) const { return head_.familiarity(features); }
 
   /// ScoreHead::scores of features that embed has returned.
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;

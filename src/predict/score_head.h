@@ -1,10 +1,10 @@
 #pragma once
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "io/models/model_file.h"
-#include "nn/runtime/inference.h"
-#include "view/camera_pose.h"
+#include "predict/camera_head.h"
+#include "predict/frame_head.h"
 
 namespace svnet::predict {
 
@@ -17,13 +17,7 @@ class ScoreHead {
   /// The number D of features: over all symmetries, or turns, of the top image that the model sees.
   Index feature_count() const { return feature_count_; }
 
-  /// How far the top view is from those that the head was fitted to, and how far the farthest of them is
-  /// (frame/seen_shapes.h). Both are 0 in the frame `camera`. Throws Error unless features are as in scores().
-  struct Familiarity {
-    double distance = 0, limit = 0;
-    /// The share of the head's terms of the shape that counts.
-    double trust = 1;
-  };
+  /// Throws Error unless features are as in scores().
   Familiarity familiarity(const Tensor& features) const;
 
   /// One score per pose, in order. A score does not depend on the other poses of the call, and poses a whole turn apart
@@ -31,17 +25,20 @@ class ScoreHead {
   /// (view/camera_pose.h).
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
+  /// The same, written to `scores`, which has an element per pose. Once the workspace has seen as many poses, nothing
+  /// is allocated.
+  void scores(std::span<const float> features, std::span<const view::CameraPose> poses, std::span<float> scores,
+              ScoreWorkspace& workspace) const;
+
+  /// Familiarity in memory that the caller keeps.
+  Familiarity familiarity(std::span<const float> features, ScoreWorkspace& workspace) const;
+
  private:
   void check_features(const Tensor& features) const;
-  std::vector<float> camera_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
-  std::vector<float> frame_scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
 
-  frame::FrameSpec spec_;
-  frame::SeenShapes seen_;
-  models::AngleEncoding angles_;
-  int symmetries_;
+  std::optional<CameraHead> camera_;
+  std::optional<FrameHead> frame_;  // if there is no camera_
   Index feature_count_;
-  Inference network_;
 };
 
 }  // namespace svnet::predict

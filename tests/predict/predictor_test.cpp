@@ -64,6 +64,50 @@ TEST_CASE("a predictor gives the features and scores of its model, for any numbe
   }
 }
 
+TEST_CASE("a score has the same bits whatever the other poses and the number of threads") {
+  const Model camera = [] {
+    Model model = small_model(AngleEncoding::harmonics);
+    model.symmetries = 3;
+    return model;
+  }();
+  std::vector<CameraPose> poses = fibonacci_half_sphere(300, 0);
+  std::vector<CameraPose> reversed(poses.rbegin(), poses.rend());
+  for (const Model& model : {camera, small_axis_model(), small_turned_model()}) {
+    const Predictor predictor(model);
+    const Tensor features = predictor.embed(small_image());
+    const std::vector<float> scores = predictor.scores(features, poses);
+    const std::vector<float> backwards = predictor.scores(features, reversed);
+    CHECK(std::equal(scores.begin(), scores.end(), backwards.rbegin()));
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      INFO("pose " << i);
+      CHECK(predictor.scores(features, std::span(poses).subspan(i, 1))[0] == scores[i]);
+    }
+    const int threads = Parallel::shared().threads();
+    for (const int other : {1, 3}) {
+      Parallel::shared().resize(other);
+      CHECK(predictor.scores(features, poses) == scores);
+    }
+    Parallel::shared().resize(threads);
+  }
+}
+
+TEST_CASE("a head that cannot be split scores each pose with the whole network") {
+  Model model = small_model();
+  const Index dimension = element_count(model.head.node(0).shape);
+  Graph head;
+  const NodeId features = head.input("features", {dimension}), angles = head.input("angles", {2});
+  const NodeId all = head.add("relu", ActivationLayer{}, {head.add("concat", ConcatLayer{}, {features, angles})});
+  head.add("score", DenseLayer{.units = 1, .activation = Activation::sigmoid}, {all});
+  model.head = head;
+  model.head_parameters = initial_parameters(head, 3);
+  const Predictor predictor(model);
+  const Tensor embedded = predictor.embed(small_image());
+  const std::vector<CameraPose> poses = many_poses();
+  const std::vector<float> scores = predictor.scores(embedded, poses);
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    CHECK(scores[i] == Approx(plain_score(model, embedded, poses[i])).margin(1e-5));
+}
+
 TEST_CASE("a model of all orientations gives their mean, in whichever orientation the image is") {
   Model model = small_model(AngleEncoding::harmonics);
   const Predictor as_taken(model);

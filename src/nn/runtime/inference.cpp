@@ -45,19 +45,8 @@ class Inference::ArenaLease {
         arena_.reset(kept);
         break;
       }
-    if (!arena_) {
-      arena_ = std::make_unique<Arena>();
-      std::size_t most = 1;
-      for (const auto& step : from.program_.steps) most = std::max(most, step.inputs.size());
-      arena_->inputs.resize(most);
-      arena_->group_inputs.resize(from.program_.inputs.size());
-    }
-    if (arena_->size < size) {
-      arena_->memory.reset();
-      arena_->memory = aligned_floats(size);
-      std::fill_n(arena_->memory.get(), size, 0.0f);
-      arena_->size = size;
-    }
+    if (!arena_) arena_ = std::make_unique<Arena>();
+    from_.reserve(*arena_, size);
   }
   ~ArenaLease() {
     for (auto& place : from_.free_) {
@@ -85,6 +74,19 @@ Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId ou
 
 Inference::~Inference() {
   for (auto& place : free_) delete place.load();
+}
+
+void Inference::reserve(Arena& arena, Index size) const {
+  std::size_t most = 1;
+  for (const auto& step : program_.steps) most = std::max(most, step.inputs.size());
+  arena.inputs.resize(most);
+  arena.group_inputs.resize(program_.inputs.size());
+  if (arena.size >= size) return;
+  arena.size = 0;
+  arena.memory.reset();
+  arena.memory = aligned_floats(size);
+  std::fill_n(arena.memory.get(), size, 0.0f);
+  arena.size = size;
 }
 
 Index Inference::arena_size(Index batch) const {
@@ -115,14 +117,19 @@ void Inference::run_step(const runtime::ProgramStep& step, std::span<const float
                   .parallel = Parallel::shared()});
 }
 
-void Inference::run(std::span<const float* const> inputs, Index batch, float* output) const {
-  const ArenaLease arena(*this, arena_size(batch));
-  std::vector<const float*>& from = (*arena).group_inputs;
+void Inference::run(std::span<const float* const> inputs, Index batch, float* output, Arena* own) const {
+  if (own == nullptr) {
+    const ArenaLease lease(*this, arena_size(batch));
+    return run(inputs, batch, output, &*lease);
+  }
+  Arena& arena = *own;
+  reserve(arena, arena_size(batch));
+  std::vector<const float*>& from = arena.group_inputs;
   for (Index begin = 0; begin < batch; begin += group_) {
     for (std::size_t i = 0; i < inputs.size(); ++i) from[i] = inputs[i] + begin * program_.sizes[i];
     const Index group = std::min(group_, batch - begin);
     for (const auto& step : program_.steps)
-      run_step(step, from, group, output + begin * element_count(program_.output_shape), *arena);
+      run_step(step, from, group, output + begin * element_count(program_.output_shape), arena);
   }
 }
 

@@ -42,8 +42,16 @@ class Inference {
 
   /// The output of a batch. Inputs are f32, in the graph's order. Throws Error if shapes do not fit.
   Tensor run(const std::vector<Tensor>& inputs) const;
+
+  /// The memory of runs, one at a time. It grows to what a run needs, and later runs allocate nothing.
+  struct Arena {
+    AlignedFloats memory{};
+    Index size = 0;
+    std::vector<const float*> inputs{}, group_inputs{};  // of the current step, of the graph
+  };
   /// The same from and into the caller's memory. Requires that 64 bytes after the end of each input can be read.
-  void run(std::span<const float* const> inputs, Index batch, float* output) const;
+  /// `arena`: the caller's own, used with this network only; nullptr: a borrowed one.
+  void run(std::span<const float* const> inputs, Index batch, float* output, Arena* arena = nullptr) const;
 
   /// Number of floats of activations and scratch memory that a batch needs.
   Index arena_size(Index batch) const;
@@ -52,13 +60,9 @@ class Inference {
 
  private:
   static constexpr std::size_t kKeptArenas = 64;
-  struct Arena {
-    AlignedFloats memory{};
-    Index size = 0;
-    std::vector<const float*> inputs{}, group_inputs{};  // of the current step, of the graph
-  };
   class ArenaLease;
 
+  void reserve(Arena& arena, Index size) const;
   void run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch, float* output,
                 Arena& arena) const;
 

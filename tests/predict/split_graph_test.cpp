@@ -1,0 +1,117 @@
+#include "predict/split_graph.h"
+
+#include <catch2/catch.hpp>
+
+#include "models/pose_head.h"
+#include "models/sv_net.h"
+#include "nn/graph/run.h"
+#include "small_model.h"
+
+using namespace svnet;
+using namespace svnet::predict;
+
+namespace {
+
+/// Made-up parameters: batch norms that change every value, and kernels of about the size of an initialiser's.
+Parameters made_up_parameters(const Graph& graph) {
+  Parameters parameters = initial_parameters(graph, 7);
+  for (const auto& node : graph.nodes())
+    for (const auto& spec : node.parameters) {
+      if (spec.name == "kernel") continue;
+      Tensor values = small_weights(spec.shape, 0.4f);
+      if (spec.name != "beta" && spec.name != "bias")
+        for (Index i = 0; i < values.size(); ++i) values.data<float>()[i] += 0.9f;
+      parameters.set(node.parameter_name(spec), values);
+    }
+  return parameters;
+}
+
+/// The largest difference between the whole graph and its two parts, over three values of the first input and five of
+/// the second.
+double largest_difference(const Graph& graph, const Parameters& parameters, const SplitGraph& split) {
+  const Index firsts = element_count(graph.node(graph.inputs()[0]).shape),
+              others = element_count(graph.node(graph.inputs()[1]).shape);
+  double largest = 0;
+  for (int which = 0; which < 3; ++which) {
+    const Tensor first = small_weights({1, firsts}, 0.5f + static_cast<float>(which));
+    const Tensor once = run_inference(split.once.graph, split.once.parameters, {first}, {split.once.graph.output()})[0];
+    for (int i = 0; i < 5; ++i) {
+      const Tensor other = small_weights({1, others}, static_cast<float>(i));
+      const Tensor parts =
+          run_inference(split.each.graph, split.each.parameters, {once, other}, {split.each.graph.output()})[0];
+      const Tensor whole = run_inference(graph, parameters, {first, other}, {graph.output()})[0];
+      REQUIRE(parts.shape() == whole.shape());
+      for (Index k = 0; k < whole.size(); ++k)
+        largest = std::max<double>(largest, std::abs(parts.data<float>()[k] - whole.data<float>()[k]));
+    }
+  }
+  return largest;
+}
+
+Shape kernel_of(const FoldedGraph& part, const std::string& layer) {
+  return part.parameters.at(layer + "/kernel").shape();
+}
+
+}  // namespace
+
+TEST_CASE("SV-net is split where the pose enters, with its batch norms folded") {
+  for (const double dropout : {0.0, 0.5}) {
+    const Graph graph = models::sv_net({.features = 30, .width = 12, .dropout = dropout});
+    const Parameters parameters = made_up_parameters(graph);
+    const auto split = split_graph(graph, parameters, graph.output());
+    REQUIRE(split);
+    CHECK(largest_difference(graph, parameters, *split) < 2e-6);
+    CHECK(kernel_of(split->once, "mlp2_1_relu") == Shape{12, 12});
+    CHECK(kernel_of(split->each, "mlp2_1_relu") == Shape{2, 12});
+    CHECK_FALSE(split->each.parameters.contains("mlp2_1_relu/bias"));
+    CHECK_FALSE(split->each.parameters.contains("mlp1_1_relu/kernel"));
+    CHECK(split->once.graph.inputs().size() == 1);
+    CHECK(split->each.graph.node(split->each.graph.inputs()[0]).shape == Shape{12});
+    for (const FoldedGraph* part : {&split->once, &split->each})
+      for (const auto& node : part->graph.nodes()) CHECK_FALSE(node.is<BatchNormLayer>());
+  }
+}
+
+TEST_CASE("a concatenation of several parts in any order is split") {
+  Graph graph;
+  const NodeId first = graph.input("picture", {6}), second = graph.input("pose", {3});
+  const NodeId deep = graph.add("deep", DenseLayer{.units = 5, .activation = Activation::relu}, {first});
+  const NodeId turned = graph.add("turned", DenseLayer{.units = 4, .activation = Activation::sigmoid}, {second});
+  const NodeId all = graph.add("all", ConcatLayer{}, {turned, first, second, deep});
+  const NodeId hidden = graph.add("hidden", DenseLayer{.units = 7, .activation = Activation::sigmoid},
+                                  {graph.add("drop", DropoutLayer{0.5}, {all})});
+  graph.add("out", DenseLayer{.units = 2}, {hidden});
+  const Parameters parameters = made_up_parameters(graph);
+  const auto split = split_graph(graph, parameters, graph.output());
+  REQUIRE(split);
+  CHECK(largest_difference(graph, parameters, *split) < 2e-6);
+  CHECK(kernel_of(split->once, "hidden") == Shape{11, 7});
+  CHECK(kernel_of(split->each, "hidden") == Shape{7, 7});
+}
+
+TEST_CASE("graphs of another form are not split") {
+  const auto is_split = [](const Graph& graph) {
+    return split_graph(graph, initial_parameters(graph, 1), graph.output()).has_value();
+  };
+  CHECK_FALSE(is_split(models::linear_head(4)));
+  CHECK_FALSE(is_split(models::mixed_head(4, 2)));
+
+  Graph activated;  // the concatenation is changed before the dense layer
+  NodeId x = activated.input("picture", {6}), pose = activated.input("pose", {3});
+  x = activated.add("relu", ActivationLayer{}, {activated.add("all", ConcatLayer{}, {x, pose})});
+  activated.add("out", DenseLayer{.units = 2}, {x});
+  CHECK_FALSE(is_split(activated));
+
+  Graph twice;  // the picture enters again after the dense layer
+  x = twice.input("picture", {6}), pose = twice.input("pose", {3});
+  const NodeId hidden = twice.add("hidden", DenseLayer{.units = 2}, {twice.add("all", ConcatLayer{}, {x, pose})});
+  twice.add("out", DenseLayer{.units = 2}, {twice.add("again", ConcatLayer{}, {hidden, x})});
+  CHECK_FALSE(is_split(twice));
+
+  Graph read_twice;  // the concatenation has two readers
+  x = read_twice.input("picture", {6}), pose = read_twice.input("pose", {3});
+  const NodeId all = read_twice.add("all", ConcatLayer{}, {x, pose});
+  const NodeId left = read_twice.add("left", DenseLayer{.units = 2}, {all});
+  read_twice.add("sum", AddLayer{}, {left, read_twice.add("right", DenseLayer{.units = 2}, {all})});
+  CHECK_FALSE(is_split(read_twice));
+}
