@@ -19,8 +19,9 @@
  * Ownership: the caller owns all buffers that it passes; the library neither keeps nor frees them. The caller owns a
  * model and frees it with svnet_model_free.
  *
- * Threads: every function may be called from several threads at once, with the same model too. Only svnet_model_free
- * must be called after all other uses of its model. A call uses the thread pool of the library if it is free, otherwise
+ * Threads: every function may be called from several threads at once, with the same model too, but with one context by
+ * one thread at a time. Only svnet_model_free must be called after all other uses of its model, and
+ * svnet_context_free after those of its context. A call uses the thread pool of the library if it is free, otherwise
  * only the calling thread. The results are the same.
  *
  * Environment: SVNET_THREADS sets the initial number of threads. SVNET_MAX_ISA limits the instruction set.
@@ -63,6 +64,14 @@ typedef enum svnet_pixel_format {
 
 typedef struct svnet_model svnet_model;
 
+/* The memory of calls with one model: see svnet_context_create. */
+typedef struct svnet_context svnet_context;
+
+typedef enum svnet_log_level { SVNET_LOG_INFO = 0, SVNET_LOG_WARNING = 1 } svnet_log_level;
+
+/* Receives one line of text without a line break, valid during the call. */
+typedef void (*svnet_log_callback)(svnet_log_level level, const char* line, void* user_data);
+
 /* The version of the library, such as "0.1.0". */
 SVNET_API const char* svnet_version(void);
 
@@ -72,6 +81,13 @@ SVNET_API const char* svnet_last_error(void);
 
 /* Sets the number of threads of the library, in [1, 1024]. Waits for computations in progress. */
 SVNET_API svnet_status svnet_set_threads(int threads);
+
+/* Sets what receives the log of the library; NULL (the default): nothing. Logged are the number of threads when it
+ * changes; of a model that is loaded, the time, instruction set, frame and kernels; and, as a warning, each top image
+ * in which the object's shape is unlike those that the model was trained on. The callback is called by the thread that
+ * works, so possibly by several at once, and must return normally. Within it, calls of the library log nothing,
+ * svnet_set_log fails, and svnet_set_threads may. svnet_set_log returns after the last call of the former callback. */
+SVNET_API svnet_status svnet_set_log(svnet_log_callback callback, void* user_data);
 
 /* Reads a model file that svnet-train wrote (model.safetensors). `path`: in the encoding of the file system. On failure
  * *model is NULL. */
@@ -110,6 +126,56 @@ SVNET_API svnet_status svnet_score(const svnet_model* model, const float* featur
  * score. `count` must be at least 1. */
 SVNET_API svnet_status svnet_best_view(const svnet_model* model, const float* features, const double* poses_deg,
                                        size_t count, size_t* best, float* score);
+
+/* Finds up to k poses that differ: the best first, then each time the best of those that are at least min_angle_deg
+ * degrees, in [0, 180], away from all that were found (the angle between two viewing directions, along the great
+ * circle; up to 1e-4 degrees less count as enough); the first one in a tie. `indices` receives them, best first, and
+ * `scores`, if not NULL, their scores; both have room for the smaller of k and count. `found` receives their number, at
+ * least 1: less than k if no other pose differs enough. k and count must be at least 1. */
+SVNET_API svnet_status svnet_best_views(const svnet_model* model, const float* features, const double* poses_deg,
+                                        size_t count, size_t k, double min_angle_deg, size_t* indices, float* scores,
+                                        size_t* found);
+
+/* How much the best pose is better than looking from above: the highest score of `count` poses minus the score of
+ * (90, 90), which need not be one of them; negative if the top view is better than all. `count` must be at least 1. */
+SVNET_API svnet_status svnet_margin(const svnet_model* model, const float* features, const double* poses_deg,
+                                    size_t count, float* margin);
+
+/* Writes the poses of a grid, sorted by elevation, then azimuth: theta_steps azimuths (1 to 3600), evenly from 0, at
+ * each of phi_steps elevations (1 to 1000), evenly from lowest_phi_deg to highest_phi_deg, both included; with one step
+ * the lowest alone. Expects 0 <= lowest <= highest <= 90. At 90 degrees there is one pose, (90, 90). `count` receives
+ * the number of poses. `poses_deg` has room for `capacity` poses, 2 * capacity doubles; if it is NULL, they are counted
+ * only. Too little room is SVNET_INVALID_ARGUMENT. */
+SVNET_API svnet_status svnet_grid(int32_t theta_steps, int32_t phi_steps, double lowest_phi_deg, double highest_phi_deg,
+                                  double* poses_deg, size_t capacity, size_t* count);
+
+/* Makes a context: memory for calls with `model`, which must live longer. One thread at a time uses a context; several
+ * contexts share a model. The functions below give the results of those above. They keep what they need: after a first
+ * call with an image, and with poses, of a size, calls with images and as many poses of that size allocate no memory
+ * (a larger size allocates once more; svnet_set_threads may too, and a call that fails). One exception: in models that
+ * measure or turn the top image, that is of another frame than `camera`, svnet_context_embed allocates for the
+ * silhouette and the turned images. What depends on the features alone is also kept, so further calls with the same
+ * features are faster. On failure *context is NULL. */
+SVNET_API svnet_status svnet_context_create(const svnet_model* model, svnet_context** context);
+
+/* Frees a context; NULL is allowed. */
+SVNET_API void svnet_context_free(svnet_context* context);
+
+/* svnet_embed and, if depth_m is not NULL, svnet_embed_with_depth. */
+SVNET_API svnet_status svnet_context_embed(svnet_context* context, const uint8_t* pixels, int32_t height, int32_t width,
+                                           size_t stride_bytes, svnet_pixel_format format, const float* depth_m,
+                                           float* features);
+
+/* svnet_score, svnet_best_view, svnet_best_views and svnet_margin. */
+SVNET_API svnet_status svnet_context_score(svnet_context* context, const float* features, const double* poses_deg,
+                                           size_t count, float* scores);
+SVNET_API svnet_status svnet_context_best_view(svnet_context* context, const float* features, const double* poses_deg,
+                                               size_t count, size_t* best, float* score);
+SVNET_API svnet_status svnet_context_best_views(svnet_context* context, const float* features, const double* poses_deg,
+                                                size_t count, size_t k, double min_angle_deg, size_t* indices,
+                                                float* scores, size_t* found);
+SVNET_API svnet_status svnet_context_margin(svnet_context* context, const float* features, const double* poses_deg,
+                                            size_t count, float* margin);
 
 #ifdef __cplusplus
 }

@@ -32,8 +32,8 @@ Layout layout_of(const char* function, svnet_pixel_format format) {
 
 }  // namespace
 
-Image image_of(const char* function, const std::uint8_t* pixels, std::int32_t height, std::int32_t width,
-               std::size_t stride_bytes, svnet_pixel_format format) {
+void read_pixels(const char* function, const std::uint8_t* pixels, std::int32_t height, std::int32_t width,
+                 std::size_t stride_bytes, svnet_pixel_format format, Image& image) {
   const Layout layout = layout_of(function, format);
   check(height > 0 && width > 0, "[", function, "] the image is ", height, "x", width, ", expected at least one pixel");
   check(Index{height} * width <= kMostPixels, "[", function, "] the image is ", height, "x", width,
@@ -41,21 +41,23 @@ Image image_of(const char* function, const std::uint8_t* pixels, std::int32_t he
   const std::size_t row_bytes = static_cast<std::size_t>(width) * layout.bytes;
   check(stride_bytes >= row_bytes, "[", function, "] stride_bytes is ", stride_bytes, ", less than the ", row_bytes,
         " bytes of a row");
-  Image image{height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(Index{height} * width * 3))};
+  image.height = height;
+  image.width = width;
+  image.rgb.resize(static_cast<std::size_t>(Index{height} * width * 3));
   std::uint8_t* out = image.rgb.data();
   for (std::size_t y = 0; y < static_cast<std::size_t>(height); ++y) {
     const std::uint8_t* in = pixels + y * stride_bytes;
     for (std::int32_t x = 0; x < width; ++x, in += layout.bytes)
       for (const std::size_t offset : layout.offset) *out++ = in[offset];
   }
-  return image;
 }
 
-DepthImage depth_image_of(const float* metres, Index height, Index width) {
-  DepthImage depth{.height = height, .width = width, .metres = {metres, metres + height * width}};
+void read_depth(const float* metres, Index height, Index width, DepthImage& depth) {
+  depth.height = height;
+  depth.width = width;
+  depth.metres.assign(metres, metres + height * width);
   for (float& value : depth.metres)
     if (!std::isfinite(value) || value < 0) value = 0;
-  return depth;
 }
 
 }  // namespace svnet

@@ -14,43 +14,45 @@ constexpr int kPrecisionBits = 22;  // 32, less 8 for the pixel and 2 for the su
 
 /// The source index of each target index. Positions are summed step by step as Pillow does, so that ties are rounded
 /// the same way.
-std::vector<Index> nearest_sources(Index from, Index to) {
-  std::vector<Index> sources(static_cast<std::size_t>(to));
+void nearest_sources(Index from, Index to, std::vector<Index>& sources) {
+  sources.resize(static_cast<std::size_t>(to));
   const double step = static_cast<double>(from) / static_cast<double>(to);
   double position = step * 0.5;
   for (Index& source : sources) {
     source = std::min(static_cast<Index>(position), from - 1);
     position += step;
   }
-  return sources;
 }
 
-Image resized_nearest(const Image& image, Index height, Index width) {
-  const std::vector<Index> rows = nearest_sources(image.height, height), columns = nearest_sources(image.width, width);
-  Image result{height, width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * width * kChannels))};
-  std::uint8_t* out = result.rgb.data();
-  for (const Index row : rows) {
+void set_size(Image& image, Index height, Index width) {
+  image.height = height;
+  image.width = width;
+  image.rgb.resize(static_cast<std::size_t>(height * width * kChannels));
+}
+
+const Image& resized_nearest(const Image& image, Index height, Index width, ResizeBuffers& buffers) {
+  nearest_sources(image.height, height, buffers.rows);
+  nearest_sources(image.width, width, buffers.columns);
+  set_size(buffers.result, height, width);
+  std::uint8_t* out = buffers.result.rgb.data();
+  for (const Index row : buffers.rows) {
     const std::uint8_t* in = image.rgb.data() + row * image.width * kChannels;
-    for (const Index column : columns) out = std::copy_n(in + column * kChannels, kChannels, out);
+    for (const Index column : buffers.columns) out = std::copy_n(in + column * kChannels, kChannels, out);
   }
-  return result;
+  return buffers.result;
 }
 
-/// The triangle filter along one axis: target[i] = Σ weights[i * taps + t] · source[starts[i] + t] over t < counts[i].
-/// Weights are in units of 2^-22 and add up to about 1.
-struct Filter {
-  Index taps;
-  std::vector<Index> starts, counts;
-  std::vector<std::int32_t> weights;
-};
-
-/// Pillow's precompute_coeffs and normalize_coeffs_8bpc, operation by operation.
-Filter triangle_filter(Index from, Index to) {
+/// The triangle filter: Pillow's precompute_coeffs and normalize_coeffs_8bpc, operation by operation.
+const ResizeBuffers::Filter& triangle_filter(Index from, Index to, ResizeBuffers& buffers) {
   const double scale = static_cast<double>(from) / static_cast<double>(to);
   const double support = std::max(scale, 1.0);
-  Filter filter{static_cast<Index>(std::ceil(support)) * 2 + 1, {}, {}, {}};
-  filter.weights.resize(static_cast<std::size_t>(to * filter.taps));
-  std::vector<double> taps(static_cast<std::size_t>(filter.taps));
+  ResizeBuffers::Filter& filter = buffers.filter;
+  filter.taps = static_cast<Index>(std::ceil(support)) * 2 + 1;
+  filter.starts.clear();
+  filter.counts.clear();
+  filter.weights.assign(static_cast<std::size_t>(to * filter.taps), 0);
+  buffers.taps.assign(static_cast<std::size_t>(filter.taps), 0.0);
+  std::vector<double>& taps = buffers.taps;
   // NOLINTBEGIN(bugprone-incorrect-roundings): as Pillow rounds, bit for bit
   for (Index i = 0; i < to; ++i) {
     const double centre = (static_cast<double>(i) + 0.5) * scale;
@@ -77,10 +79,9 @@ std::uint8_t rounded(std::int32_t sum) {
   return static_cast<std::uint8_t>(std::clamp((sum + (1 << (kPrecisionBits - 1))) >> kPrecisionBits, 0, 255));
 }
 
-Image with_width(const Image& image, Index width) {
-  const Filter filter = triangle_filter(image.width, width);
-  Image result{image.height, width,
-               std::vector<std::uint8_t>(static_cast<std::size_t>(image.height * width * kChannels))};
+void set_width(const Image& image, Index width, ResizeBuffers& buffers, Image& result) {
+  const ResizeBuffers::Filter& filter = triangle_filter(image.width, width, buffers);
+  set_size(result, image.height, width);
   std::uint8_t* out = result.rgb.data();
   for (Index row = 0; row < image.height; ++row) {
     const std::uint8_t* in = image.rgb.data() + row * image.width * kChannels;
@@ -96,14 +97,14 @@ Image with_width(const Image& image, Index width) {
       *out++ = rounded(red), *out++ = rounded(green), *out++ = rounded(blue);
     }
   }
-  return result;
 }
 
-Image with_height(const Image& image, Index height) {
-  const Filter filter = triangle_filter(image.height, height);
+void set_height(const Image& image, Index height, ResizeBuffers& buffers, Image& result) {
+  const ResizeBuffers::Filter& filter = triangle_filter(image.height, height, buffers);
   const Index row_size = image.width * kChannels;
-  Image result{height, image.width, std::vector<std::uint8_t>(static_cast<std::size_t>(height * row_size))};
-  std::vector<std::int32_t> sums(static_cast<std::size_t>(row_size));
+  set_size(result, height, image.width);
+  std::vector<std::int32_t>& sums = buffers.sums;
+  sums.resize(static_cast<std::size_t>(row_size));
   for (Index row = 0; row < height; ++row) {
     std::fill(sums.begin(), sums.end(), 0);
     for (Index t = 0; t < filter.counts[row]; ++t) {
@@ -113,7 +114,6 @@ Image with_height(const Image& image, Index height) {
     }
     std::transform(sums.begin(), sums.end(), result.rgb.begin() + row * row_size, rounded);
   }
-  return result;
 }
 
 }  // namespace
@@ -124,15 +124,30 @@ Interpolation interpolation_named(std::string_view name) {
 }
 
 Image resized(const Image& image, Index height, Index width, Interpolation interpolation) {
+  ResizeBuffers buffers;
+  if (&resized(image, height, width, interpolation, buffers) == &image) return image;
+  return std::move(buffers.result);
+}
+
+const Image& resized(const Image& image, Index height, Index width, Interpolation interpolation,
+                     ResizeBuffers& buffers) {
   check(image.height > 0 && image.width > 0 && height > 0 && width > 0, "[resize] cannot make a ", height, "x", width,
         " image of a ", image.height, "x", image.width, " image: every side must be at least 1");
   check(static_cast<Index>(image.rgb.size()) == image.height * image.width * kChannels, "[resize] a ", image.height,
         "x", image.width, "x3 image has ", image.rgb.size(), " values, expected ",
         image.height * image.width * kChannels);
-  if (interpolation == Interpolation::nearest) return resized_nearest(image, height, width);
+  if (interpolation == Interpolation::nearest) return resized_nearest(image, height, width, buffers);
   // A side that keeps its length needs no filter, which would not change a pixel.
-  if (image.width == width) return image.height == height ? image : with_height(image, height);
-  return image.height == height ? with_width(image, width) : with_height(with_width(image, width), height);
+  if (image.width == width && image.height == height) return image;
+  if (image.width == width) {
+    set_height(image, height, buffers, buffers.result);
+  } else if (image.height == height) {
+    set_width(image, width, buffers, buffers.result);
+  } else {
+    set_width(image, width, buffers, buffers.between);
+    set_height(buffers.between, height, buffers, buffers.result);
+  }
+  return buffers.result;
 }
 
 }  // namespace svnet

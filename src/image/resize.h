@@ -1,5 +1,6 @@
 #pragma once
 #include <string_view>
+#include <vector>
 
 #include "base/enum_names.h"
 #include "image/image.h"
@@ -20,7 +21,25 @@ constexpr auto enum_table(Interpolation) {
 /// Throws Error for an unknown name.
 Interpolation interpolation_named(std::string_view name);
 
+/// What resizing keeps between calls, so that later calls of the same sizes allocate nothing.
+struct ResizeBuffers {
+  /// A filter along one axis: target[i] = Σ weights[i * taps + t] · source[starts[i] + t] over t < counts[i]. Weights
+  /// are in units of 2^-22 and add up to about 1.
+  struct Filter {
+    Index taps = 0;
+    std::vector<Index> starts{}, counts{};
+    std::vector<std::int32_t> weights{};
+  };
+  Filter filter{};
+  std::vector<Index> rows{}, columns{};  // of the nearest pixels
+  std::vector<double> taps{};            // of one pixel
+  std::vector<std::int32_t> sums{};      // of one row
+  Image between{}, result{};
+};
+
 /// `image` resized. Throws Error unless both sizes are positive and rgb has height x width x 3 elements.
 Image resized(const Image& image, Index height, Index width, Interpolation);
+/// The same: buffers.result, or `image` itself if it has that size. Valid until the buffers are used again.
+const Image& resized(const Image& image, Index height, Index width, Interpolation, ResizeBuffers& buffers);
 
 }  // namespace svnet

@@ -28,10 +28,15 @@ void preprocess(PixelMode mode, const std::uint8_t* rgb, Index pixels, float* ou
 }
 
 void prepare(const Preprocessing& preprocessing, const Image& image, float* out) {
+  ResizeBuffers buffers;
+  prepare(preprocessing, image, out, buffers);
+}
+
+void prepare(const Preprocessing& preprocessing, const Image& image, float* out, ResizeBuffers& buffers) {
   const Index pixels = preprocessing.height * preprocessing.width;
   if (image.height == preprocessing.height && image.width == preprocessing.width)
     return preprocess(preprocessing.mode, image.rgb.data(), pixels, out);
-  const Image small = resized(image, preprocessing.height, preprocessing.width, preprocessing.interpolation);
+  const Image& small = resized(image, preprocessing.height, preprocessing.width, preprocessing.interpolation, buffers);
   preprocess(preprocessing.mode, small.rgb.data(), pixels, out);
 }
 

@@ -38,5 +38,7 @@ void preprocess(PixelMode, const std::uint8_t* rgb, Index pixels, float* out);
 
 /// Resizes to (height, width) if needed and preprocesses; out is (height, width, 3).
 void prepare(const Preprocessing&, const Image&, float* out);
+/// The same with buffers that the caller keeps.
+void prepare(const Preprocessing&, const Image&, float* out, ResizeBuffers& buffers);
 
 }  // namespace svnet::models

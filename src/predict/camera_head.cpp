@@ -9,10 +9,11 @@ namespace svnet::predict {
 namespace {
 
 /// Poses per run of the network: its weights are read once per run, and the activations of a run stay in cache.
-constexpr Index kCameraPosesAtOnce = 128;
+constexpr Index kCameraPosesAtOnce = 64;
 
-void ensure_shape(Tensor& tensor, const Shape& shape) {
-  if (!tensor.defined() || tensor.shape() != shape) tensor = Tensor::empty(shape);
+/// A tensor (rows, columns), the same one if it has that shape.
+void ensure_shape(Tensor& tensor, Index rows, Index columns) {
+  if (!tensor.defined() || tensor.dim(0) != rows || tensor.dim(1) != columns) tensor = Tensor::empty({rows, columns});
 }
 
 }  // namespace
@@ -33,10 +34,10 @@ void CameraHead::set_features(std::span<const float> features, ScoreWorkspace& w
   if (w.features.defined() && std::ranges::equal(features, w.features.values<float>())) return;
   Tensor kept = std::move(w.features);  // stays empty if the network throws
   w.repeated_symmetry = -1;
-  ensure_shape(kept, {symmetries_, dimension_});
+  ensure_shape(kept, symmetries_, dimension_);
   std::ranges::copy(features, kept.data<float>());
   if (once_) {
-    ensure_shape(w.picture, {symmetries_, once_->output_shape()[0]});
+    ensure_shape(w.picture, symmetries_, once_->output_shape()[0]);
     const float* const input = kept.data<float>();
     once_->run({&input, 1}, symmetries_, w.picture.data<float>(), w.arena(w.once));
   } else {

@@ -1,7 +1,8 @@
 #include "predict/predictor.h"
 
 #include <algorithm>
-#include <numeric>
+#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
@@ -35,13 +36,20 @@ Predictor::Predictor(const Model& model, const InferenceOptions& options)
 }
 
 Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {
+  Tensor features = Tensor::empty({1, feature_count()});
+  Workspace workspace;
+  workspace.head.owns_arenas = false;
+  embed(top, depth, {features.data<float>(), static_cast<std::size_t>(features.size())}, workspace);
+  return features;
+}
+
+void Predictor::embed(const Image& top, const DepthImage* depth, std::span<float> features, Workspace& w) const {
   check(top.height > 0 && top.width > 0 && static_cast<Index>(top.rgb.size()) == top.height * top.width * 3,
         "[predict] the image says ", top.height, "x", top.width, " pixels and holds ", top.rgb.size(), " bytes");
   check(!uses_depth() || depth != nullptr,
         "[predict] the model was trained with depth; give the depth image of the top view too");
-  if (frame_ == frame::FrameChoice::camera) return embedding(top);
-  Tensor features = Tensor::empty({1, feature_count()});
-  float* to = features.data<float>();
+  if (frame_ == frame::FrameChoice::camera) return write_embedding(top, features, w);
+  float* to = features.data();
   if (frame::has_axis(frame_)) {
     const frame::TopFrameValues values = frame::to_values(frame::top_frame(top, uses_depth() ? depth : nullptr));
     to = std::copy(values.begin(), values.end(), to);
@@ -50,18 +58,17 @@ Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {
     const Tensor turns = values_of_turns(top);
     std::copy_n(turns.data<float>(), turns.size(), to);
   }
-  return features;
 }
 
-Tensor Predictor::embedding(const Image& top) const {
-  Tensor batch = Tensor::empty({symmetries_, preprocessing_.height, preprocessing_.width, 3});
-  prepare(preprocessing_, top, batch.data<float>());
+void Predictor::write_embedding(const Image& top, std::span<float> features, Workspace& w) const {
+  if (!w.images.defined()) w.images = Tensor::empty({symmetries_, preprocessing_.height, preprocessing_.width, 3});
+  float* const images = w.images.data<float>();
+  prepare(preprocessing_, top, images, w.resizing);
   for (int symmetry = 1; symmetry < symmetries_; ++symmetry)
-    view::apply_symmetry(symmetry, preprocessing_.width, batch.data<float>(),
-                         batch.data<float>() + symmetry * preprocessing_.size());
-  const Tensor features = backbone_->run({batch});
-  check_finite(features.values<float>(), "feature");
-  return features.reshaped({1, feature_count()});
+    view::apply_symmetry(symmetry, preprocessing_.width, images, images + symmetry * preprocessing_.size());
+  const float* const input = images;
+  backbone_->run({&input, 1}, symmetries_, features.data(), w.head.arena(w.backbone));
+  check_finite(features, "feature");
 }
 
 Tensor Predictor::values_of_turns(const Image& top) const {
@@ -87,16 +94,24 @@ std::vector<float> Predictor::scores(const Tensor& features, std::span<const vie
   return head_.scores(features, poses);
 }
 
-std::size_t best_view(std::span<const float> scores) {
-  check(!scores.empty(), "[predict] there is no pose to choose from");
-  return static_cast<std::size_t>(std::max_element(scores.begin(), scores.end()) - scores.begin());
+std::string Predictor::description() const {
+  std::string text = joined("frame ", name_of(frame_), ", ", feature_count(), " features");
+  if (!backbone_) return text;
+  std::map<std::string, int> counts;
+  for (const std::string& kernel : backbone_->kernels()) ++counts[kernel];
+  text += joined(", ", name_of(backbone_->precision()), "; backbone:");
+  const char* separator = " ";
+  for (const auto& [kernel, count] : counts) text += joined(std::exchange(separator, ", "), count, " x ", kernel);
+  return text;
 }
 
-std::vector<std::size_t> best_first(std::span<const float> scores) {
-  std::vector<std::size_t> order(scores.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return scores[a] > scores[b]; });
-  return order;
+void Predictor::scores(std::span<const float> features, std::span<const view::CameraPose> poses,
+                       std::span<float> scores, Workspace& workspace) const {
+  head_.scores(features, poses, scores, workspace.head);
+}
+
+Familiarity Predictor::familiarity(std::span<const float> features, Workspace& workspace) const {
+  return head_.familiarity(features, workspace.head);
 }
 
 }  // namespace svnet::predict

@@ -9,9 +9,19 @@
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
 #include "predict/score_head.h"
+#include "predict/view_choice.h"
 #include "view/camera_pose.h"
 
 namespace svnet::predict {
+
+/// What a Predictor keeps between calls, so that later calls of the same sizes allocate nothing. One call at a time may
+/// use it, and one Predictor only.
+struct Workspace {
+  ScoreWorkspace head{};
+  Inference::Arena backbone{};
+  Tensor images{};  ///< the input of the backbone
+  ResizeBuffers resizing{};
+};
 
 /// A trained model for inference. A top image becomes features once; features and a camera pose become a score in
 /// [0, 1]. In frames other than `camera` the features are those of frame/frame_inputs.h. Thread-safe.
@@ -30,6 +40,14 @@ class Predictor {
   /// without it.
   Tensor embed(const Image& top, const DepthImage* depth = nullptr) const;
 
+  /// The same, written to `features`, which has feature_count() elements. In the frame `camera` nothing is allocated if
+  /// the workspace has seen an image of that size; in the others the silhouette and the turned images are. On failure
+  /// the features are undefined.
+  void embed(const Image& top, const DepthImage* depth, std::span<float> features, Workspace& workspace) const;
+
+  /// In one line for a log: frame, number of features, precision, and how often the backbone runs which kernel.
+  std::string description() const;
+
   bool uses_depth() const { return depth_ != frame::DepthChoice::none; }
 
   /// ScoreHead::familiarity of features that embed has returned.
@@ -37,9 +55,12 @@ class Predictor {
 
   /// ScoreHead::scores of features that embed has returned.
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
+  void scores(std::span<const float> features, std::span<const view::CameraPose> poses, std::span<float> scores,
+              Workspace& workspace) const;
+  Familiarity familiarity(std::span<const float> features, Workspace& workspace) const;
 
  private:
-  Tensor embedding(const Image& top) const;
+  void write_embedding(const Image& top, std::span<float> features, Workspace& workspace) const;
   /// (kTurns, components)
   Tensor values_of_turns(const Image& top) const;
 
@@ -50,11 +71,5 @@ class Predictor {
   std::optional<Inference> backbone_;  // of all frames but `axis`
   ScoreHead head_;
 };
-
-/// The index of the highest score, the first of equal ones. Throws Error if there are no scores.
-std::size_t best_view(std::span<const float> scores);
-
-/// The indices of all scores, highest score first; equal scores keep their order.
-std::vector<std::size_t> best_first(std::span<const float> scores);
 
 }  // namespace svnet::predict

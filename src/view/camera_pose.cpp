@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 
@@ -33,6 +34,16 @@ std::string pose_problem(const CameraPose& pose) {
 CameraPose clamped_pose(const CameraPose& pose) {
   return {std::clamp(pose.theta_deg, kLowestTheta_deg, kHighestTheta_deg),
           std::clamp(pose.phi_deg, kLowestPhi_deg, kHighestPhi_deg)};
+}
+
+double angle_between_deg(const CameraPose& a, const CameraPose& b) {
+  constexpr double kRadians = std::numbers::pi / 180;
+  const double sin_a = std::sin(a.phi_deg * kRadians), cos_a = std::cos(a.phi_deg * kRadians);
+  const double sin_b = std::sin(b.phi_deg * kRadians), cos_b = std::cos(b.phi_deg * kRadians);
+  const double turn = (a.theta_deg - b.theta_deg) * kRadians, along = cos_a * sin_b - sin_a * cos_b * std::cos(turn);
+  // Exact for small angles too, unlike the arc cosine (Vincenty's formula on a sphere).
+  const double across = std::hypot(cos_b * std::sin(turn), along);
+  return std::atan2(across, sin_a * sin_b + cos_a * cos_b * std::cos(turn)) / kRadians;
 }
 
 }  // namespace svnet::view

@@ -8,6 +8,7 @@
 
 #include "base/version.h"
 #include "frame/top_view.h"
+#include "loaded_model.h"
 #include "predict/predictor.h"
 #include "shell.h"
 #include "small_model.h"
@@ -21,33 +22,6 @@ using namespace svnet::predict;
 using namespace svnet::view;
 
 namespace {
-
-struct Loaded {
-  explicit Loaded(const Model& written = small_model()) {
-    const TemporaryFolder folder;
-    const auto path = folder.path() / "model.safetensors";
-    write_model(path, written);
-    REQUIRE(svnet_model_load(path.c_str(), &model) == SVNET_OK);
-  }
-  ~Loaded() { svnet_model_free(model); }
-  Loaded(const Loaded&) = delete;
-  Loaded& operator=(const Loaded&) = delete;
-
-  std::vector<float> embed(const std::vector<std::uint8_t>& pixels, std::int32_t height, std::int32_t width,
-                           std::size_t stride, svnet_pixel_format format) const {
-    std::vector<float> features(svnet_feature_count(model));
-    REQUIRE(svnet_embed(model, pixels.data(), height, width, stride, format, features.data()) == SVNET_OK);
-    return features;
-  }
-
-  svnet_model* model = nullptr;
-};
-
-std::vector<double> pairs_of(const std::vector<CameraPose>& poses) {
-  std::vector<double> pairs;
-  for (const CameraPose& pose : poses) pairs.insert(pairs.end(), {pose.theta_deg, pose.phi_deg});
-  return pairs;
-}
 
 /// `image` with its channels in `order` (indices of RGB; 3 is alpha) and `gap` bytes after each row but the last.
 std::vector<std::uint8_t> laid_out(const Image& image, const std::vector<int>& order, std::size_t gap) {

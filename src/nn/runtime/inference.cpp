@@ -153,6 +153,12 @@ Tensor Inference::run(const std::vector<Tensor>& inputs) const {
   return output;
 }
 
+std::vector<std::string> Inference::kernels() const {
+  std::vector<std::string> names;
+  for (const auto& step : program_.steps) names.push_back(step.step->kernel());
+  return names;
+}
+
 std::vector<StepReport> Inference::report(Index batch) const {
   using Clock = std::chrono::steady_clock;
   const double groups = static_cast<double>(batch) / static_cast<double>(std::min(batch, group_));

@@ -55,6 +55,8 @@ class Inference {
 
   /// Number of floats of activations and scratch memory that a batch needs.
   Index arena_size(Index batch) const;
+  /// The kernel of each step, as StepReport names it.
+  std::vector<std::string> kernels() const;
   /// Every step with its time on zeros: the time of one group times the number of groups of a batch.
   std::vector<StepReport> report(Index batch) const;
 
