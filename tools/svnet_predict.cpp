@@ -1,4 +1,5 @@
 // svnet-predict: which camera poses show the most of an object, from its top image.
+#include <algorithm>
 #include <cmath>
 #include <iomanip>
 #include <nlohmann/json.hpp>
@@ -20,24 +21,46 @@ using namespace svnet;
 using namespace svnet::command;
 using svnet::view::CameraPose;
 
-std::string table_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores) {
+std::string table_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores,
+                       const std::vector<std::size_t>& indices) {
   std::ostringstream text;
   text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
-  for (const std::size_t i : predict::best_first(scores))
+  for (const std::size_t i : indices)
     text << '\n'
          << std::setw(10) << poses[i].theta_deg << std::setw(10) << poses[i].phi_deg << std::setw(12) << std::fixed
          << std::setprecision(6) << scores[i] << std::defaultfloat;
   return text.str();
 }
 
-std::string json_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores,
-                      const predict::Familiarity& top_view) {
+/// What is printed of a top image.
+struct Prediction {
+  std::vector<CameraPose> poses;
+  std::vector<float> scores;
+  std::vector<std::size_t> best;  // the best views that differ enough
+  float margin_over_top;
+  predict::Familiarity familiarity;
+};
+
+nlohmann::ordered_json views_json(const Prediction& prediction, const std::vector<std::size_t>& indices) {
   nlohmann::ordered_json views = nlohmann::ordered_json::array();
-  for (const std::size_t i : predict::best_first(scores))
-    views.push_back({{"theta_deg", poses[i].theta_deg}, {"phi_deg", poses[i].phi_deg}, {"score", scores[i]}});
+  for (const std::size_t i : indices) {
+    const CameraPose& pose = prediction.poses[i];
+    views.push_back({{"theta_deg", pose.theta_deg}, {"phi_deg", pose.phi_deg}, {"score", prediction.scores[i]}});
+  }
+  return views;
+}
+
+std::string json_text(const Prediction& prediction) {
+  const nlohmann::ordered_json views = views_json(prediction, predict::best_first(prediction.scores));
+  const predict::Familiarity& top_view = prediction.familiarity;
   const nlohmann::ordered_json top{
       {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
-  return nlohmann::ordered_json{{"best", views.front()}, {"views", views}, {"top_view", top}}.dump(2);
+  return nlohmann::ordered_json{{"best", views.front()},
+                                {"best_views", views_json(prediction, prediction.best)},
+                                {"margin_over_top", prediction.margin_over_top},
+                                {"views", views},
+                                {"top_view", top}}
+      .dump(2);
 }
 
 /// The image as it is stored, with a warning if viewers show it turned, or turned as they do.
@@ -60,6 +83,8 @@ int main(int argc, char** argv) {
                   "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
   fs::path model, image, depth_file, poses_file, plot;
   bool grid = false, json = false;
+  Index best = 0;  // 0: not given
+  double min_angle_deg = 0;
   std::string exif{name_of(ExifOrientation::ignore)};
   command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
   command.add("--image", image, "The object from above: a PNG, JPEG or WebP image of any size")
@@ -78,12 +103,22 @@ int main(int argc, char** argv) {
       .add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
       .excludes(poses_option);
   command
+      .add("--best", best, "Prints only the K best poses that differ by --min-angle; with --json, best_views has them")
+      .value_name("K")
+      .positive();
+  command
+      .add("--min-angle", min_angle_deg,
+           "The least angle between two of the best poses, in degrees: 0 to 180, between viewing directions")
+      .value_name("DEG")
+      .shows_default();
+  command
       .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
       .one_of(names_of<ExifOrientation>())
       .shows_default();
   command.add_flag(
       "--json", json,
-      "Prints JSON: best, and views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
+      "Prints JSON: best; best_views, of --best and --min-angle; margin_over_top, the best score minus that of the "
+      "top view; views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
       "from those that the model was trained on (distance, limit), and the share that it counts (trust)");
   command
       .add("--plot", plot,
@@ -109,8 +144,13 @@ int main(int argc, char** argv) {
                           familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
                           std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
     const std::vector<float> scores = predictor.scores(features, poses);
+    const float top_score = predictor.scores(features, std::span(&view::kTopView, 1))[0];
+    std::vector<std::size_t> chosen(std::min(static_cast<std::size_t>(std::max<Index>(best, 1)), poses.size()));
+    chosen.resize(predict::best_views(scores, poses, min_angle_deg, chosen));
+    const Prediction prediction{poses, scores, chosen, scores[chosen[0]] - top_score, familiarity};
     if (!plot.empty()) io::write_png(plot, predict::prediction_picture(top, depth ? &*depth : nullptr, poses, scores));
     if (!io::is_standard_output(plot))
-      console.result(json ? json_text(poses, scores, familiarity) : table_text(poses, scores));
+      console.result(json ? json_text(prediction)
+                          : table_text(poses, scores, best > 0 ? chosen : predict::best_first(scores)));
   });
 }

@@ -52,6 +52,12 @@ struct BestView {
   float score;
 };
 
+// A grid of poses, as svnet_grid writes it.
+struct GridSpec {
+  std::int32_t theta_steps = 36, phi_steps = 10;
+  double lowest_phi_deg = 0, highest_phi_deg = 90;
+};
+
 namespace detail {
 
 inline void check(svnet_status status) {
@@ -68,6 +74,22 @@ inline std::size_t pixel_bytes(svnet_pixel_format format) {
 inline std::string version() { return svnet_version(); }
 
 inline void set_threads(int threads) { detail::check(svnet_set_threads(threads)); }
+
+inline void set_log(svnet_log_callback callback, void* user_data = nullptr) {
+  detail::check(svnet_set_log(callback, user_data));
+}
+
+inline std::vector<CameraPose> pose_grid(const GridSpec& spec) {
+  const auto grid = [&](double* poses_deg, std::size_t capacity) {
+    std::size_t count = 0;
+    detail::check(svnet_grid(spec.theta_steps, spec.phi_steps, spec.lowest_phi_deg, spec.highest_phi_deg, poses_deg,
+                             capacity, &count));
+    return count;
+  };
+  std::vector<CameraPose> poses(grid(nullptr, 0));
+  grid(&poses.data()->theta_deg, poses.size());
+  return poses;
+}
 
 // A trained model; movable, not copyable. All functions throw StatusError or std::bad_alloc if svnet.h fails.
 class ViewModel {
@@ -121,7 +143,34 @@ class ViewModel {
     return best_view(features, poses.data(), poses.size());
   }
 
+  // Up to k poses that differ by at least min_angle_deg, best first: svnet_best_views.
+  std::vector<BestView> best_views(const std::vector<float>& features, const CameraPose* poses, std::size_t count,
+                                   std::size_t k, double min_angle_deg) const {
+    const std::size_t most = k < count ? k : count;
+    std::vector<std::size_t> indices(most + 1);  // never without an address
+    std::vector<float> scores(most + 1);
+    std::size_t found = 0;
+    detail::check(svnet_best_views(model_.get(), numbers(features), angles(poses), count, k, min_angle_deg,
+                                   indices.data(), scores.data(), &found));
+    std::vector<BestView> views;
+    for (std::size_t i = 0; i < found; ++i) views.push_back({indices[i], scores[i]});
+    return views;
+  }
+  std::vector<BestView> best_views(const std::vector<float>& features, const std::vector<CameraPose>& poses,
+                                   std::size_t k, double min_angle_deg) const {
+    return best_views(features, poses.data(), poses.size(), k, min_angle_deg);
+  }
+
+  // The highest score minus that of the top view: svnet_margin.
+  float margin(const std::vector<float>& features, const std::vector<CameraPose>& poses) const {
+    float result = 0;
+    detail::check(svnet_margin(model_.get(), numbers(features), angles(poses.data()), poses.size(), &result));
+    return result;
+  }
+
  private:
+  friend class ViewContext;
+
   struct Free {
     void operator()(svnet_model* model) const { svnet_model_free(model); }
   };
@@ -140,6 +189,52 @@ class ViewModel {
   static const double* angles(const CameraPose* poses) { return poses == nullptr ? nullptr : &poses->theta_deg; }
 
   std::unique_ptr<svnet_model, Free> model_;
+};
+
+// Memory of calls with one model, which must live longer: see svnet_context_create. Movable, not copyable; used by one
+// thread at a time. Its functions write into the caller's memory, so that they allocate nothing after the first calls.
+class ViewContext {
+ public:
+  explicit ViewContext(const ViewModel& model) {
+    svnet_context* context = nullptr;
+    detail::check(svnet_context_create(model.model_.get(), &context));
+    context_.reset(context);
+  }
+
+  // `features` receives ViewModel::feature_count() floats. depth_m: as for svnet_context_embed.
+  void embed(const ImageView& image, float* features, const float* depth_m = nullptr) {
+    detail::check(svnet_context_embed(context_.get(), image.pixels, image.height, image.width,
+                                      ViewModel::stride_of(image), image.format, depth_m, features));
+  }
+  // `scores` receives `count` floats.
+  void scores(const float* features, const CameraPose* poses, std::size_t count, float* scores) {
+    detail::check(svnet_context_score(context_.get(), features, ViewModel::angles(poses), count, scores));
+  }
+  BestView best_view(const float* features, const CameraPose* poses, std::size_t count) {
+    BestView best{};
+    detail::check(
+        svnet_context_best_view(context_.get(), features, ViewModel::angles(poses), count, &best.index, &best.score));
+    return best;
+  }
+  // `indices` and, unless nullptr, `scores` have room for the smaller of k and count. Returns how many were found.
+  std::size_t best_views(const float* features, const CameraPose* poses, std::size_t count, std::size_t k,
+                         double min_angle_deg, std::size_t* indices, float* scores = nullptr) {
+    std::size_t found = 0;
+    detail::check(svnet_context_best_views(context_.get(), features, ViewModel::angles(poses), count, k, min_angle_deg,
+                                           indices, scores, &found));
+    return found;
+  }
+  float margin(const float* features, const CameraPose* poses, std::size_t count) {
+    float result = 0;
+    detail::check(svnet_context_margin(context_.get(), features, ViewModel::angles(poses), count, &result));
+    return result;
+  }
+
+ private:
+  struct Free {
+    void operator()(svnet_context* context) const { svnet_context_free(context); }
+  };
+  std::unique_ptr<svnet_context, Free> context_;
 };
 
 }  // namespace v0

@@ -99,3 +99,45 @@ TEST_CASE("the C++ interface takes the depth of the top view") {
   depth.pop_back();
   CHECK_THROWS_WITH(model.embed(image, depth), "there are 14399 depth values, the image has 120x120 pixels");
 }
+
+TEST_CASE("the C++ interface has grids, several best views, the margin and contexts") {
+  const svnet::ViewModel model = small_view_model();
+  const std::vector<svnet::CameraPose> poses = svnet::pose_grid({8, 4, 0, 90});
+  REQUIRE(poses.size() == 25);
+  CHECK(poses[1].theta_deg == 45);
+  CHECK(poses.back().phi_deg == 90);
+  CHECK_THROWS_WITH(svnet::pose_grid({0, 4, 0, 90}), "[view] a grid of 0 theta steps, expected 1 to 3600");
+
+  std::vector<std::uint8_t> grey(9 * 8);
+  for (std::size_t i = 0; i < grey.size(); ++i) grey[i] = static_cast<std::uint8_t>(i * 37);
+  const svnet::ImageView image{grey.data(), 9, 8, SVNET_GRAY8};
+  const std::vector<float> features = model.embed(image);
+  const std::vector<svnet::BestView> views = model.best_views(features, poses, 3, 50);
+  REQUIRE(views.size() == 3);
+  CHECK(views[0].index == model.best_view(features, poses).index);
+  CHECK(views[0].score >= views[1].score);
+  CHECK(model.margin(features, poses) == views[0].score - model.scores(features, {{90, 90}})[0]);
+  CHECK_THROWS_WITH(model.best_views(features, {}, 3, 50),
+                    "[svnet_best_views] count is 0, there is no pose to choose from");
+
+  svnet::ViewContext first(model);
+  svnet::ViewContext context(std::move(first));
+  std::vector<float> kept(features.size()), scores(poses.size());
+  context.embed(image, kept.data());
+  CHECK(kept == features);
+  context.scores(kept.data(), poses.data(), poses.size(), scores.data());
+  CHECK(scores == model.scores(features, poses));
+  CHECK(context.best_view(kept.data(), poses.data(), poses.size()).index == views[0].index);
+  std::array<std::size_t, 3> indices{};
+  CHECK(context.best_views(kept.data(), poses.data(), poses.size(), 3, 50, indices.data()) == 3);
+  CHECK(indices == std::array{views[0].index, views[1].index, views[2].index});
+  CHECK(context.margin(kept.data(), poses.data(), poses.size()) == model.margin(features, poses));
+  CHECK_THROWS_WITH(context.embed({grey.data(), 0, 8, SVNET_GRAY8}, kept.data()),
+                    "[svnet_context_embed] the image is 0x8, expected at least one pixel");
+
+  std::string line;
+  svnet::set_log([](svnet_log_level, const char* text, void* to) { *static_cast<std::string*>(to) = text; }, &line);
+  svnet::set_threads(2);
+  svnet::set_log(nullptr);
+  CHECK(line == "threads 2");
+}

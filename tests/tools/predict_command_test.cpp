@@ -67,6 +67,42 @@ TEST_CASE("svnet-predict prints the paper's grid, best first") {
   }
 }
 
+TEST_CASE("svnet-predict chooses the best views that differ enough") {
+  const Workplace place;
+  const Predictor predictor(small_model());
+  const Tensor features = predictor.embed(small_image());
+  const std::vector<CameraPose> poses = paper_grid();
+  const std::vector<float> scores = predictor.scores(features, poses);
+  std::vector<std::size_t> chosen(3);
+  REQUIRE(best_views(scores, poses, 50, chosen) == 3);
+
+  const std::string call = "model.safetensors --image top.png --best 3 --min-angle 50";
+  std::istringstream lines(place.run(call).out);
+  std::string line;
+  std::getline(lines, line);
+  for (const std::size_t i : chosen) {
+    double theta_deg = -1, phi_deg = -1, score = -1;
+    REQUIRE(lines >> theta_deg >> phi_deg >> score);
+    CHECK(CameraPose{theta_deg, phi_deg} == poses[i]);
+  }
+  CHECK_FALSE(lines >> line);
+
+  const auto json = nlohmann::json::parse(place.run(call + " --json").out);
+  REQUIRE(json.at("best_views").size() == 3);
+  CHECK(json.at("best_views")[0] == json.at("best"));
+  for (std::size_t i = 0; i < 3; ++i) CHECK(json.at("best_views")[i].at("theta_deg") == poses[chosen[i]].theta_deg);
+  CHECK(json.at("views").size() == poses.size());
+  CHECK(json.at("margin_over_top").get<double>() == Approx(scores[chosen[0]] - scores.back()).margin(1e-6));
+  const auto alone = nlohmann::json::parse(place.run("model.safetensors --image top.png --json").out);
+  CHECK(alone.at("best_views").size() == 1);
+
+  const Ran none = place.run("model.safetensors --image top.png --best 0");
+  CHECK(none.status == 2);
+  const Ran wide = place.run("model.safetensors --image top.png --best 2 --min-angle 200");
+  CHECK(wide.status == 1);
+  CHECK_THAT(wide.err, Catch::Contains("the views are to differ by 200 degrees, expected 0 to 180"));
+}
+
 TEST_CASE("svnet-predict reads candidates from a file and draws them") {
   const Workplace place;
   place.folder.write("poses.csv", "theta,phi\n10,50\n200.5,70\n-90,0\n");

@@ -45,3 +45,43 @@ TEST_CASE("a Fibonacci half-sphere covers the half-sphere evenly") {
   CHECK_THROWS_WITH(fibonacci_half_sphere(0, 0), "[view] 0 poses are no half-sphere, expected at least one");
   CHECK_THROWS_WITH(fibonacci_half_sphere(3, 90), "[view] the lowest phi is 90 degrees, expected one in [0, 90)");
 }
+
+TEST_CASE("a grid has its azimuths at each elevation, and one pose at the top") {
+  const std::vector<CameraPose> expected{{0, 30},  {90, 30},  {180, 30}, {270, 30}, {0, 60},
+                                         {90, 60}, {180, 60}, {270, 60}, {90, 90}};
+  CHECK(pose_grid({4, 3, 30, 90}) == expected);
+  CHECK(grid_size({4, 3, 30, 90}) == 9);
+  CHECK(pose_grid({2, 1, 45, 80}) == std::vector<CameraPose>{{0, 45}, {180, 45}});
+  CHECK(pose_grid({7, 1, 90, 90}) == std::vector<CameraPose>{kTopView});
+  CHECK(grid_size({}) == 36 * 9 + 1);
+  CHECK(pose_grid({5, 4, 0, 77.7}).back() == CameraPose{288, 77.7});
+}
+
+TEST_CASE("grids out of range are refused") {
+  CHECK_THROWS_WITH(pose_grid({0, 3, 30, 90}), "[view] a grid of 0 theta steps, expected 1 to 3600");
+  CHECK_THROWS_WITH(grid_size({3601, 3, 30, 90}), "[view] a grid of 3601 theta steps, expected 1 to 3600");
+  CHECK_THROWS_WITH(grid_size({4, 1001, 30, 90}), "[view] a grid of 1001 phi steps, expected 1 to 1000");
+  CHECK_THROWS_WITH(grid_size({4, 2, 60, 30}),
+                    "[view] a grid with phi from 60 to 30 degrees, expected 0 <= lowest <= highest <= 90");
+  CHECK_THROWS_WITH(grid_size({4, 2, 0, std::nan("")}),
+                    "[view] a grid with phi from 0 to nan degrees, expected 0 <= lowest <= highest <= 90");
+}
+
+TEST_CASE("the angle between poses is that of their directions") {
+  CHECK(angle_between_deg({0, 0}, {90, 0}) == Approx(90));
+  CHECK(angle_between_deg({0, 0}, {180, 0}) == Approx(180));
+  CHECK(angle_between_deg({0, 45}, {180, 45}) == Approx(90));
+  CHECK(angle_between_deg({10, 30}, {10, 75}) == Approx(45));
+  CHECK(angle_between_deg({0, 90}, {123, 90}) == Approx(0).margin(1e-12));
+  CHECK(angle_between_deg({-45, 20}, {315, 20}) == Approx(0).margin(1e-12));
+  CHECK(angle_between_deg({0, 45}, {1e-7, 45}) == Approx(1e-7 * std::sqrt(0.5)));
+  // Against the scalar product of unit vectors.
+  const auto direction = [](const CameraPose& pose) {
+    const double theta = pose.theta_deg * M_PI / 180, phi = pose.phi_deg * M_PI / 180;
+    return Eigen::Vector3d(std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi));
+  };
+  const std::vector<CameraPose> poses = fibonacci_half_sphere(40, 0);
+  for (const CameraPose& a : poses)
+    for (const CameraPose& b : poses)
+      if (!(a == b)) CHECK(angle_between_deg(a, b) == Approx(std::acos(direction(a).dot(direction(b))) * 180 / M_PI));
+}
