@@ -10,5 +10,6 @@ void bind_cluster_metrics(pybind11::module_& module);
 void bind_scores(pybind11::module_& module);
 void bind_backbone(pybind11::module_& module);
 void bind_model(pybind11::module_& module);
+void bind_pose_grid(pybind11::module_& module);
 
 }  // namespace svnet::python

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <limits>
 #include <optional>
 
 #include "arguments.h"
@@ -72,21 +73,55 @@ score returns them.
 Raises svnet.Error as score does.
 )";
 
-std::vector<float> scores(const Predictor& self, const char* function, const py::object& given_image,
-                          const py::object& given_angles, const py::object& given_depth) {
+constexpr const char* kBestViewsDoc = R"(best_views(self, image, angles_deg, k, min_angle_deg=0, depth=None)
+--
+
+Up to k camera poses that differ: the best first, then each time the best of those that are far enough from all that
+were chosen.
+
+image, angles_deg, depth : as for score
+k : integer >= 1
+min_angle_deg : the least angle between the viewing directions of two chosen poses, along the great circle, in [0, 180]
+    degrees; up to 1e-4 degrees less count as enough
+Returns (indices, scores): (F,) int64 and (F,) float32, best first; F < k if no other pose differs enough.
+Raises svnet.Error as score does, and for a k or an angle that is out of range.
+)";
+
+constexpr const char* kMarginDoc = R"(margin(self, image, angles_deg, depth=None)
+--
+
+How much the best of the given camera poses is better than looking from above: the highest score minus the score of
+(90, 90), which need not be one of them; negative if the top view is better than all.
+
+image, angles_deg, depth : as for score
+Raises svnet.Error as score does.
+)";
+
+/// Camera poses of one call, and their scores.
+struct ScoredPoses {
+  std::vector<view::CameraPose> poses;
+  std::vector<float> scores;
+  float top_score = 0;
+};
+
+ScoredPoses scored(const Predictor& self, const char* function, const py::object& given_image,
+                   const py::object& given_angles, const py::object& given_depth) {
   const Image top = image(function, given_image);
   std::optional<DepthImage> depth;
   if (!given_depth.is_none()) depth = depth_image(function, given_depth, top.height, top.width);
-  const std::vector<view::CameraPose> poses = camera_poses(function, given_angles);
+  ScoredPoses result{camera_poses(function, given_angles), {}};
   const Computing computing;
-  const Tensor features = self.embed(top, depth ? &*depth : nullptr);
-  std::vector<float> result;
-  result.reserve(poses.size());
+  std::vector<float> features(static_cast<std::size_t>(self.feature_count()));
+  predict::Workspace workspace;
+  self.embed(top, depth ? &*depth : nullptr, features, workspace);
+  const std::span<const view::CameraPose> poses = result.poses;
+  result.scores.resize(poses.size());
   for (std::size_t first = 0; first < poses.size(); first += kPosesAtOnce) {
     const std::size_t count = std::min(kPosesAtOnce, poses.size() - first);
-    std::ranges::copy(self.scores(features, std::span(poses).subspan(first, count)), std::back_inserter(result));
+    self.scores(features, poses.subspan(first, count), std::span(result.scores).subspan(first, count), workspace);
     let_python_interrupt();
   }
+  self.scores(features, std::span(&view::kTopView, 1), std::span(&result.top_score, 1), workspace);
   return result;
 }
 
@@ -128,13 +163,33 @@ py::tuple reduced(const LoadedModel& self) {
 
 py::array_t<float> score(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
                          const py::object& depth) {
-  return array_of(std::span<const float>(scores(self.predictor, "Model.score", image, angles_deg, depth)));
+  return array_of(std::span<const float>(scored(self.predictor, "Model.score", image, angles_deg, depth).scores));
 }
 
 py::tuple best_view_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
                        const py::object& depth) {
-  const std::vector<float> values = scores(self.predictor, "Model.best_view", image, angles_deg, depth);
+  const std::vector<float> values = scored(self.predictor, "Model.best_view", image, angles_deg, depth).scores;
   return py::make_tuple(predict::best_view(values), array_of(std::span<const float>(values)));
+}
+
+py::tuple best_views_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
+                        const py::object& k, const py::object& min_angle_deg, const py::object& depth) {
+  constexpr const char* kName = "Model.best_views";
+  const std::uint64_t most = whole_number(kName, "k", k, 1, std::numeric_limits<std::int64_t>::max());
+  const double angle_deg = number(kName, "min_angle_deg", min_angle_deg);
+  const ScoredPoses all = scored(self.predictor, kName, image, angles_deg, depth);
+  std::vector<std::size_t> chosen(std::min<std::size_t>(most, all.poses.size()));
+  chosen.resize(predict::best_views(all.scores, all.poses, angle_deg, chosen));
+  std::vector<float> scores;
+  for (const std::size_t i : chosen) scores.push_back(all.scores[i]);
+  const std::vector<std::int64_t> indices(chosen.begin(), chosen.end());
+  return py::make_tuple(array_of(std::span<const std::int64_t>(indices)), array_of(std::span<const float>(scores)));
+}
+
+float margin_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
+                const py::object& depth) {
+  const ScoredPoses all = scored(self.predictor, "Model.margin", image, angles_deg, depth);
+  return all.scores[predict::best_view(all.scores)] - all.top_score;
 }
 
 /// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a model, and methods would
@@ -154,6 +209,9 @@ void bind_model(py::module_& module) {
       .def("score", score, kScoreDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
       .def("best_view", best_view_of, kBestViewDoc, py::arg("image"), py::arg("angles_deg"),
            py::arg("depth") = py::none())
+      .def("best_views", best_views_of, kBestViewsDoc, py::arg("image"), py::arg("angles_deg"), py::arg("k"),
+           py::arg("min_angle_deg") = 0, py::arg("depth") = py::none())
+      .def("margin", margin_of, kMarginDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
       .def_property_readonly(
           "uses_depth", [](const LoadedModel& self) { return self.predictor.uses_depth(); },
           "Whether the model was trained with the depth of top views, and needs it.")

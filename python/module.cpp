@@ -71,5 +71,6 @@ PYBIND11_MODULE(_svnet, module) {
   svnet::python::bind_scores(module);
   svnet::python::bind_backbone(module);
   svnet::python::bind_model(module);
+  svnet::python::bind_pose_grid(module);
   for (const char* name : {"Backbone", "Model"}) module.attr(name).attr("__module__") = "svnet";
 }

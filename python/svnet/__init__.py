@@ -8,6 +8,7 @@
     scores = svnet.semantic_scores(features, category, object, pose, min_samples=10000)
     model = svnet.Model.load("model.safetensors")             # written by svnet-train
     index, scores = model.best_view(top_image, [[0, 45], [90, 60]])  # (H, W, 3) uint8; theta, phi in degrees
+    indices, scores = model.best_views(top_image, svnet.pose_grid(36, 10), k=3, min_angle_deg=40)
     camera_to_world = svnet.camera_pose(90, 60, radius=0.7, centre=(0, 0, 0.05), frame="optical")
 
 Arguments and results are NumPy arrays. Features, labels and angles may have any integer or float dtype and any strides.
@@ -27,6 +28,7 @@ from ._svnet import (
     fowlkes_mallows_individual,
     kmeans,
     normalized_mutual_info,
+    pose_grid,
     purity,
     semantic_scores,
     set_threads,
@@ -51,6 +53,7 @@ __all__ = [
     "fowlkes_mallows_individual",
     "kmeans",
     "normalized_mutual_info",
+    "pose_grid",
     "purity",
     "semantic_scores",
     "set_threads",

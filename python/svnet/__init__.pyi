@@ -28,6 +28,7 @@ __all__ = [
     "fowlkes_mallows_individual",
     "kmeans",
     "normalized_mutual_info",
+    "pose_grid",
     "purity",
     "semantic_scores",
     "set_threads",
@@ -63,6 +64,15 @@ class Model:
     def best_view(
         self, image: NDArray[np.uint8], angles_deg: ArrayLike, depth: Optional[ArrayLike] = None
     ) -> tuple[int, NDArray[np.float32]]: ...
+    def best_views(
+        self,
+        image: NDArray[np.uint8],
+        angles_deg: ArrayLike,
+        k: SupportsIndex,
+        min_angle_deg: float = 0,
+        depth: Optional[ArrayLike] = None,
+    ) -> tuple[NDArray[np.int64], NDArray[np.float32]]: ...
+    def margin(self, image: NDArray[np.uint8], angles_deg: ArrayLike, depth: Optional[ArrayLike] = None) -> float: ...
     @property
     def uses_depth(self) -> bool: ...
 
@@ -81,6 +91,12 @@ def kmeans(
 def normalized_mutual_info(
     true: ArrayLike, pred: ArrayLike, average: Literal["arithmetic", "geometric"] = "arithmetic"
 ) -> float: ...
+def pose_grid(
+    theta_steps: SupportsIndex = 36,
+    phi_steps: SupportsIndex = 10,
+    lowest_phi_deg: float = 0,
+    highest_phi_deg: float = 90,
+) -> NDArray[np.float64]: ...
 def purity(true: ArrayLike, pred: ArrayLike) -> float: ...
 def semantic_scores(
     features: ArrayLike,

@@ -79,20 +79,24 @@ class Part {
     const Tensor& kernel = whole_.parameters.at(dense.name + "/kernel");
     const Index units = kernel.dim(1);
     std::vector<NodeId> inputs;
-    std::vector<float> rows;
-    Index row = 0;
-    for (const NodeId id : concat.inputs) {
-      const Index count = whole_.graph.node(id).shape.back();
+    Index taken_rows = 0;
+    for (const NodeId id : concat.inputs)
       if (alone[at(id)] == taken) {
         inputs.push_back(id);
-        rows.insert(rows.end(), kernel.data<float>() + row * units, kernel.data<float>() + (row + count) * units);
+        taken_rows += whole_.graph.node(id).shape.back();
       }
-      row += count;
+    Tensor rows = Tensor::empty({taken_rows, units});
+    const float* in = kernel.data<float>();
+    float* out = rows.data<float>();
+    for (const NodeId id : concat.inputs) {
+      const Index size = whole_.graph.node(id).shape.back() * units;
+      if (alone[at(id)] == taken) out = std::copy_n(in, size, out);
+      in += size;
     }
     std::vector<NodeId> from = placed(inputs);
     if (from.size() > 1) from = {part_.graph.add(concat.name, ConcatLayer{}, from)};
     const bool has_bias = with_bias && std::get<DenseLayer>(dense.layer).bias;
-    part_.parameters.set(dense.name + "/kernel", Tensor::from({static_cast<Index>(rows.size()) / units, units}, rows));
+    part_.parameters.set(dense.name + "/kernel", rows);
     if (has_bias) part_.parameters.set(dense.name + "/bias", whole_.parameters.at(dense.name + "/bias"));
     return part_.graph.add(dense.name, DenseLayer{.units = units, .bias = has_bias}, from);
   }

@@ -53,6 +53,42 @@ def test_best_view(model, image, expected):
     assert model.best_view(image, [POSES[1], POSES[1]])[0] == 0
 
 
+def test_best_views_differ(model, image):
+    grid = svnet.pose_grid(24, 7, lowest_phi_deg=10, highest_phi_deg=90)
+    scores = model.score(image, grid)
+    indices, best = model.best_views(image, grid, 4, min_angle_deg=35)
+    assert indices.dtype == np.int64 and best.dtype == np.float32 and len(indices) == 4
+    assert best.tobytes() == scores[indices].tobytes() and indices[0] == scores.argmax()
+    theta, phi = np.radians(grid).T
+    directions = np.stack([np.cos(phi) * np.cos(theta), np.cos(phi) * np.sin(theta), np.sin(phi)], axis=1)
+    angles = np.degrees(np.arccos(np.clip(directions @ directions.T, -1, 1)))
+    chosen = []
+    for i in np.argsort(-scores, kind="stable"):
+        if len(chosen) < 4 and all(angles[i, j] >= 35 - 1e-4 for j in chosen):
+            chosen.append(i)
+    assert indices.tolist() == chosen
+    assert model.best_views(image, grid, k=10**6)[0].tolist() == np.argsort(-scores, kind="stable").tolist()
+    with pytest.raises(svnet.Error, match="k"):
+        model.best_views(image, grid, 0)
+    with pytest.raises(svnet.Error, match=r"the views are to differ by 181 degrees, expected 0 to 180"):
+        model.best_views(image, grid, 2, min_angle_deg=181)
+
+
+def test_margin(model, image, expected):
+    top = model.score(image, [[90, 90]])[0]
+    np.testing.assert_allclose(model.margin(image, POSES), expected.max() - top, atol=1e-6)
+    assert model.margin(image, [[90, 90]]) == 0
+
+
+def test_pose_grid():
+    grid = svnet.pose_grid(4, 3, 30, 90)
+    assert grid.dtype == np.float64 and grid.shape == (9, 2)
+    assert grid[:5].tolist() == [[0, 30], [90, 30], [180, 30], [270, 30], [0, 60]]
+    assert grid[-1].tolist() == [90, 90]
+    with pytest.raises(svnet.Error, match="a grid of 0 theta steps, expected 1 to 3600"):
+        svnet.pose_grid(theta_steps=0)
+
+
 def test_a_whole_turn_changes_nothing(model, image):
     assert len(set(model.score(image, [[-270, 45], [90, 45], [450, 45]]).tolist())) == 1
 

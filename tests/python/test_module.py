@@ -31,6 +31,11 @@ def test_signatures_are_those_of_the_documentation():
     assert str(inspect.signature(svnet.Backbone)) == "(name, weights=None, layer=None, seed=0)"
     assert str(inspect.signature(svnet.Model.load)) == "(path)"
     assert str(inspect.signature(svnet.Model.score)) == "(self, image, angles_deg, depth=None)"
+    best_views = "(self, image, angles_deg, k, min_angle_deg=0, depth=None)"
+    assert str(inspect.signature(svnet.Model.best_views)) == best_views
+    assert str(inspect.signature(svnet.Model.margin)) == "(self, image, angles_deg, depth=None)"
+    grid = "(theta_steps=36, phi_steps=10, lowest_phi_deg=0, highest_phi_deg=90)"
+    assert str(inspect.signature(svnet.pose_grid)) == grid
     assert str(inspect.signature(svnet.Model.best_view)) == "(self, image, angles_deg, depth=None)"
 
 

@@ -1,6 +1,7 @@
 #include "nn/runtime/folding.h"
 
 #include <optional>
+#include <vector>
 
 #include "nn/kernels/activation/activation.h"
 #include "nn/kernels/batch_norm/channel_norm.h"
@@ -71,16 +72,17 @@ void fold_norm(const GraphNode& norm, const Parameters& from, const std::string&
   Tensor kernel = to.at(kernel_name).clone();
   const Index channels = norm.parameters[0].shape[0], rows = kernel.size() / channels;
   Tensor bias = to.contains(bias_name) ? to.at(bias_name).clone() : Tensor::zeros({channels});
+  std::vector<double> scales;
   for (Index c = 0; c < channels; ++c) {
     const auto at_channel = kernels::channel_norm(value("gamma", c), value("beta", c), value("moving_mean", c),
                                                   value("moving_variance", c), epsilon);
-    for (Index row = 0; row < rows; ++row) {
-      float& w = kernel.data<float>()[row * channels + c];
-      w = static_cast<float>(w * at_channel.scale);
-    }
     float& b = bias.data<float>()[c];
     b = static_cast<float>(at_channel(b));
+    scales.push_back(at_channel.scale);
   }
+  float* w = kernel.data<float>();
+  for (Index row = 0; row < rows; ++row, w += channels)
+    for (Index c = 0; c < channels; ++c) w[c] = static_cast<float>(w[c] * scales[static_cast<std::size_t>(c)]);
   to.set(kernel_name, kernel);
   to.set(bias_name, bias);
 }
