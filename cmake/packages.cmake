@@ -38,9 +38,9 @@ camera pose on the upper half-sphere would be.")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_NAME libsvnet0)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SECTION libs)
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
-set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/packaging/libsvnet0/triggers)
+file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/packaging/shlibs CONTENT "libsvnet 0 libsvnet0 (>= @PROJECT_VERSION@)\n")
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/packaging/libsvnet0/triggers ${PROJECT_BINARY_DIR}/packaging/shlibs)
 set(CPACK_DEBIAN_LIBRARY_DESCRIPTION "semantic view selection: shared library\n${about}
 This package has the shared library, which programs in C and C++ use.")
 
