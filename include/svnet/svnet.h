@@ -85,8 +85,8 @@ SVNET_API svnet_status svnet_set_threads(int threads);
 /* Sets what receives the log of the library; NULL (the default): nothing. Logged are the number of threads when it
  * changes; of a model that is loaded, the time, instruction set, frame and kernels; and, as a warning, each top image
  * in which the object's shape is unlike those that the model was trained on. The callback is called by the thread that
- * works, so possibly by several at once, and must return normally. Within it, calls of the library log nothing,
- * svnet_set_log fails, and svnet_set_threads may. svnet_set_log returns after the last call of the former callback. */
+ * works, so possibly by several at once. It must return normally and not call the library, which may hold locks;
+ * svnet_set_log fails there. svnet_set_log returns after the last call of the former callback. */
 SVNET_API svnet_status svnet_set_log(svnet_log_callback callback, void* user_data);
 
 /* Reads a model file that svnet-train wrote (model.safetensors). `path`: in the encoding of the file system. On failure

@@ -71,8 +71,6 @@ TEST_CASE("without a callback nothing is logged, and a callback cannot replace i
     ++mine->calls;
     mine->status = svnet_set_log(nullptr, nullptr);
     mine->error = svnet_last_error();
-    svnet_model* none = nullptr;
-    svnet_model_load("/nonexistent/model", &none);
   };
   REQUIRE(svnet_set_log(replace, &seen) == SVNET_OK);
   CHECK(svnet_set_threads(2) == SVNET_OK);
