@@ -1,18 +1,21 @@
 // svnet-predict: which camera poses show the most of an object, from its top image.
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "base/progress.h"
 #include "command/command.h"
 #include "image/oriented.h"
 #include "io/files/atomic_file.h"
+#include "io/files/make_folder.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "io/views/pose_list_file.h"
 #include "predict/prediction_picture.h"
+#include "predict/prediction_text.h"
 #include "predict/predictor.h"
+#include "predict/top_images.h"
 #include "view/pose_grid.h"
 
 namespace {
@@ -21,47 +24,13 @@ using namespace svnet;
 using namespace svnet::command;
 using svnet::view::CameraPose;
 
-std::string table_text(const std::vector<CameraPose>& poses, const std::vector<float>& scores,
-                       const std::vector<std::size_t>& indices) {
-  std::ostringstream text;
-  text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
-  for (const std::size_t i : indices)
-    text << '\n'
-         << std::setw(10) << poses[i].theta_deg << std::setw(10) << poses[i].phi_deg << std::setw(12) << std::fixed
-         << std::setprecision(6) << scores[i] << std::defaultfloat;
-  return text.str();
-}
-
-/// What is printed of a top image.
-struct Prediction {
-  std::vector<CameraPose> poses;
-  std::vector<float> scores;
-  std::vector<std::size_t> best;  // the best views that differ enough
-  float margin_over_top;
-  predict::Familiarity familiarity;
+struct Arguments {
+  std::filesystem::path model, image, depth_file, poses_file, plot;
+  bool json = false, has_candidates = false;  // has_candidates: --poses or --grid
+  Index best = 0;                             // 0: not given
+  double min_angle_deg = 0;
+  std::string exif{name_of(ExifOrientation::ignore)};
 };
-
-nlohmann::ordered_json views_json(const Prediction& prediction, const std::vector<std::size_t>& indices) {
-  nlohmann::ordered_json views = nlohmann::ordered_json::array();
-  for (const std::size_t i : indices) {
-    const CameraPose& pose = prediction.poses[i];
-    views.push_back({{"theta_deg", pose.theta_deg}, {"phi_deg", pose.phi_deg}, {"score", prediction.scores[i]}});
-  }
-  return views;
-}
-
-std::string json_text(const Prediction& prediction) {
-  const nlohmann::ordered_json views = views_json(prediction, predict::best_first(prediction.scores));
-  const predict::Familiarity& top_view = prediction.familiarity;
-  const nlohmann::ordered_json top{
-      {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
-  return nlohmann::ordered_json{{"best", views.front()},
-                                {"best_views", views_json(prediction, prediction.best)},
-                                {"margin_over_top", prediction.margin_over_top},
-                                {"views", views},
-                                {"top_view", top}}
-      .dump(2);
-}
 
 /// The image as it is stored, with a warning if viewers show it turned, or turned as they do.
 Image top_image(const std::filesystem::path& path, const std::string& exif, Console& console) {
@@ -73,84 +42,153 @@ Image top_image(const std::filesystem::path& path, const std::string& exif, Cons
   return std::move(stored.image);
 }
 
+/// Predicts for one top image, and writes its picture if `plot` is not empty.
+class PredictCommand {
+ public:
+  PredictCommand(const Arguments& arguments, Console& console)
+      : a_(arguments),
+        console_(console),
+        candidates_(a_.poses_file.empty() ? view::paper_grid() : io::read_pose_list(a_.poses_file)),
+        predictor_(a_.model, inference_options_from_environment()) {}
+
+  Prediction predict(const TopImage& from, const std::filesystem::path& plot) const {
+    std::optional<DepthImage> depth;
+    if (!from.depth.empty() && predictor_.uses_depth()) depth = io::read_depth(from.depth);
+    check(depth || !predictor_.uses_depth(), a_.model.string(),
+          ": was trained with depth; give the depth image of the top view by --depth",
+          from.views.empty() ? "" : ", or as _extra/…/90_90_depth.png of the data set");
+    const Image top = top_image(from.image, a_.exif, console_);
+    const Tensor features = predictor_.embed(top, depth ? &*depth : nullptr);
+    const bool has_views = !from.views.empty() && !a_.has_candidates;
+    const std::vector<CameraPose>& poses = has_views ? from.poses : candidates_;
+    const std::vector<float> scores = predictor_.scores(features, poses);
+    const float top_score = predictor_.scores(features, std::span(&view::kTopView, 1))[0];
+    std::vector<std::size_t> chosen(std::min(static_cast<std::size_t>(std::max<Index>(a_.best, 1)), poses.size()));
+    chosen.resize(predict::best_views(scores, poses, a_.min_angle_deg, chosen));
+    const auto familiarity = predictor_.familiarity(features);
+    warn_of_shape(from, familiarity);
+    if (!plot.empty()) {
+      std::optional<Image> view;
+      if (has_views) view = top_image(from.views[chosen[0]], a_.exif, console_);
+      io::write_png(
+          plot, predict::prediction_picture(top, depth ? &*depth : nullptr, poses, scores, view ? &*view : nullptr));
+    }
+    return {poses, scores, chosen, scores[chosen[0]] - top_score, familiarity};
+  }
+
+  void predict_image() const {
+    if (!a_.plot.empty())
+      check_can_be_written(a_.plot, {a_.model, a_.image, a_.depth_file, a_.poses_file}, io::Streams::allowed);
+    if (!a_.depth_file.empty() && !predictor_.uses_depth())
+      console_.line("--depth is ignored: the model was trained without depth");
+    const Prediction prediction = predict({.name = {}, .image = a_.image, .depth = a_.depth_file}, a_.plot);
+    if (io::is_standard_output(a_.plot)) return;
+    console_.result(a_.json ? prediction_json(prediction).dump(2) : table_text(prediction, printed(prediction)));
+  }
+
+  void predict_folder() const {
+    const std::vector<TopImage> images = top_images(a_.image, a_.depth_file);
+    if (!a_.plot.empty()) io::make_folder(a_.plot);
+    nlohmann::ordered_json all = nlohmann::ordered_json::array();
+    Progress progress(console_.messages(), "top images", static_cast<Index>(images.size()));
+    for (const TopImage& image : images) {
+      std::string picture = image.name.substr(0, image.name.find_last_of('.')) + ".png";
+      std::ranges::replace(picture, '/', '_');
+      const Prediction prediction = predict(image, a_.plot.empty() ? a_.plot : a_.plot / picture);
+      if (a_.json) {
+        nlohmann::ordered_json one{{"image", image.name}};
+        one.update(prediction_json(prediction));
+        all.push_back(std::move(one));
+      } else {
+        console_.result(image.name + "\n" +
+                        table_text(prediction, a_.best > 0 ? prediction.best : std::vector{prediction.best[0]}));
+      }
+      progress.update(&image - images.data() + 1);
+    }
+    if (a_.json) console_.result(nlohmann::ordered_json{{"images", all}}.dump(2));
+  }
+
+ private:
+  std::vector<std::size_t> printed(const Prediction& prediction) const {
+    return a_.best > 0 ? prediction.best : predict::best_first(prediction.scores);
+  }
+
+  void warn_of_shape(const TopImage& from, const predict::Familiarity& familiarity) const {
+    if (familiarity.trust < 1)
+      console_.line(joined(from.image.string(),
+                           ": the object's shape is unlike those that the model was trained on: distance ",
+                           familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
+                           std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
+  }
+
+  const Arguments& a_;
+  Console& console_;
+  std::vector<CameraPose> candidates_;
+  predict::Predictor predictor_;
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  namespace fs = std::filesystem;
   Command command("svnet-predict",
                   "Predicts from an object's top image how much views from candidate camera poses would say about it, "
                   "and prints the poses (theta and phi in degrees) with their scores, best first.",
                   "svnet-predict runs/eth80/model.safetensors --image top.png --plot half-sphere.png");
-  fs::path model, image, depth_file, poses_file, plot;
-  bool grid = false, json = false;
-  Index best = 0;  // 0: not given
-  double min_angle_deg = 0;
-  std::string exif{name_of(ExifOrientation::ignore)};
-  command.add("MODEL", model, "A model that svnet-train wrote (model.safetensors)").required();
-  command.add("--image", image, "The object from above: a PNG, JPEG or WebP image of any size")
-      .required()
-      .value_name("FILE");
+  Arguments a;
+  bool grid = false;
+  command.add("MODEL", a.model, "A model that svnet-train wrote (model.safetensors)").required();
   command
-      .add("--depth", depth_file,
+      .add("--image", a.image,
+           "The object from above: a PNG, JPEG or WebP image of any size. Or a folder: of such images, or a data set, "
+           "whose "
+           "top views are taken; its other views are then the candidates, unless --poses or --grid is given")
+      .required()
+      .value_name("FILE|FOLDER");
+  command
+      .add("--depth", a.depth_file,
            "The depth image of the top view (16-bit PNG in millimetres, or .npy in metres), for models that were "
-           "trained "
-           "with depth")
+           "trained with depth. Or, for a folder of images, the folder of files with the same names")
       .value_name("FILE");
   const Argument poses_option =
-      command.add("--poses", poses_file, "The candidates: a CSV file with the header theta,phi");
+      command.add("--poses", a.poses_file, "The candidates: a CSV file with the header theta,phi");
   poses_option.value_name("FILE");
   command
       .add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
       .excludes(poses_option);
   command
-      .add("--best", best, "Prints only the K best poses that differ by --min-angle; with --json, best_views has them")
+      .add("--best", a.best,
+           "Prints only the K best poses that differ by --min-angle; with --json, best_views has them")
       .value_name("K")
       .positive();
   command
-      .add("--min-angle", min_angle_deg,
+      .add("--min-angle", a.min_angle_deg,
            "The least angle between two of the best poses, in degrees: 0 to 180, between viewing directions")
       .value_name("DEG")
       .shows_default();
   command
-      .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
+      .add("--exif-orientation", a.exif,
+           "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
       .one_of(names_of<ExifOrientation>())
       .shows_default();
   command.add_flag(
-      "--json", json,
+      "--json", a.json,
       "Prints JSON: best; best_views, of --best and --min-angle; margin_over_top, the best score minus that of the "
       "top view; views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
-      "from those that the model was trained on (distance, limit), and the share that it counts (trust)");
+      "from those that the model was trained on (distance, limit), and the share that it counts (trust). For a folder, "
+      "images: a list of these with the name of the image");
   command
-      .add("--plot", plot,
+      .add("--plot", a.plot,
            "Writes a PNG image: the top image with the object's axis, and the half-sphere from above as it lies in the "
            "top image, with the top view in the centre, theta 0 to the left and 90 down; dots from dark blue (lowest "
-           "score) to yellow, the best ringed in red. With /dev/stdout no scores are printed")
+           "score) to yellow, the best ringed in red. With /dev/stdout no scores are printed. For a "
+           "folder of images, a folder, with a picture of each; those of a data set show the view that was chosen, too")
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
-    if (!plot.empty()) check_can_be_written(plot, {model, image, depth_file, poses_file}, io::Streams::allowed);
-    const std::vector<CameraPose> poses = poses_file.empty() ? view::paper_grid() : io::read_pose_list(poses_file);
-    const predict::Predictor predictor(model, inference_options_from_environment());
-    std::optional<DepthImage> depth;
-    if (!depth_file.empty()) depth = io::read_depth(depth_file);
-    if (depth && !predictor.uses_depth()) console.line("--depth is ignored: the model was trained without depth");
-    check(depth || !predictor.uses_depth(), model.string(),
-          ": was trained with depth; give the depth image of the top view by --depth");
-    const Image top = top_image(image, exif, console);
-    const Tensor features = predictor.embed(top, depth ? &*depth : nullptr);
-    const auto familiarity = predictor.familiarity(features);
-    if (familiarity.trust < 1)
-      console.line(joined(image.string(),
-                          ": the object's shape is unlike those that the model was trained on: distance ",
-                          familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
-                          std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
-    const std::vector<float> scores = predictor.scores(features, poses);
-    const float top_score = predictor.scores(features, std::span(&view::kTopView, 1))[0];
-    std::vector<std::size_t> chosen(std::min(static_cast<std::size_t>(std::max<Index>(best, 1)), poses.size()));
-    chosen.resize(predict::best_views(scores, poses, min_angle_deg, chosen));
-    const Prediction prediction{poses, scores, chosen, scores[chosen[0]] - top_score, familiarity};
-    if (!plot.empty()) io::write_png(plot, predict::prediction_picture(top, depth ? &*depth : nullptr, poses, scores));
-    if (!io::is_standard_output(plot))
-      console.result(json ? json_text(prediction)
-                          : table_text(poses, scores, best > 0 ? chosen : predict::best_first(scores)));
+    a.has_candidates = grid || !a.poses_file.empty();
+    const PredictCommand predict_command(a, console);
+    if (std::filesystem::is_directory(a.image))
+      predict_command.predict_folder();
+    else
+      predict_command.predict_image();
   });
 }

@@ -18,7 +18,7 @@ namespace svnet::predict {
 namespace {
 
 constexpr int kHeight_px = 624, kWidth_px = 1232, kSide_px = 512, kTop_px = 56, kLeft_px = 24, kPlotLeft_px = 568,
-              kScaleLeft_px = 1120, kScaleWidth_px = 20;
+              kScaleLeft_px = 1120, kScaleWidth_px = 20, kChosenLeft_px = kWidth_px, kWideWidth_px = kWidth_px + 536;
 constexpr double kRim_px = 232, kRadians = std::numbers::pi / 180;  // of HalfSphereCanvas
 const cv::Scalar kText(30, 30, 30), kMuted(100, 100, 100), kAxis(214, 39, 40), kHalo(255, 255, 255);
 
@@ -121,11 +121,12 @@ std::string pose_text(const view::CameraPose& pose) {
 }  // namespace
 
 Image prediction_picture(const Image& top, const DepthImage* depth, std::span<const view::CameraPose> poses,
-                         std::span<const float> scores) {
+                         std::span<const float> scores, const Image* chosen) {
   check(top.height > 0 && top.width > 0, "[plot] the top image has no pixels");
   const Image plot = half_sphere_plot(poses, scores);
-  Image result{kHeight_px, kWidth_px,
-               std::vector<std::uint8_t>(static_cast<std::size_t>(3 * kHeight_px * kWidth_px), 255)};
+  const int width_px = chosen != nullptr ? kWideWidth_px : kWidth_px;
+  Image result{kHeight_px, width_px,
+               std::vector<std::uint8_t>(static_cast<std::size_t>(3 * kHeight_px * width_px), 255)};
   cv::Mat3b picture = matrix_of(result);
   draw_top_image(picture, top, depth);
   cv::Mat3b place = picture(cv::Rect(kPlotLeft_px, kTop_px, kSide_px, kSide_px));
@@ -142,6 +143,12 @@ Image prediction_picture(const Image& top, const DepthImage* depth, std::span<co
   if (const auto found = std::ranges::find_if(poses, is_top); found != poses.end())
     caption += ". The top view has " + fixed(scores[static_cast<std::size_t>(found - poses.begin())], 3) + ".";
   write(picture, caption, {kLeft_px, kHeight_px - 22}, kText, 0.55);
+  if (chosen != nullptr) {
+    write(picture, "the view from there", {kChosenLeft_px, kTop_px - 14});
+    const Image view = resized_to_fit(*chosen, kSide_px);
+    matrix_of(view).copyTo(
+        picture(cv::Rect(kChosenLeft_px, kTop_px, static_cast<int>(view.width), static_cast<int>(view.height))));
+  }
   return result;
 }
 

@@ -6,6 +6,7 @@
 #include "base/sha256.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
+#include "io/views/dataset_folder.h"
 
 namespace svnet::train {
 namespace {
@@ -25,13 +26,9 @@ frame::TopFrame frame_of(const ViewDataset& dataset, Index pose, frame::DepthCho
 }  // namespace
 
 std::filesystem::path top_depth_file(const ViewDataset& dataset, Index pose) {
+  if (const auto found = io::find_top_depth(dataset, pose)) return *found;
   const std::filesystem::path image = dataset.views[static_cast<std::size_t>(dataset.top_view(pose))].path;
-  const auto folder = dataset.root / "_extra" / image.parent_path();
-  for (const char* ending : {"_depth.png", "_depth.npy"}) {
-    const auto file = folder / (image.stem().string() + ending);
-    if (std::filesystem::exists(file)) return file;
-  }
-  fail((folder / (image.stem().string() + "_depth.png")).string(),
+  fail((dataset.root / "_extra" / image.parent_path() / (image.stem().string() + "_depth.png")).string(),
        ": no such file; sv_net.depth: heights needs the depth image of every top view, set it to none without them");
 }
 

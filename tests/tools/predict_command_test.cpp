@@ -215,3 +215,38 @@ TEST_CASE("svnet-predict says that it ignores depth if the model does not use it
     CHECK(with.err == "--depth is ignored: the model was trained without depth\n");
   }
 }
+
+TEST_CASE("svnet-predict takes a folder of top images") {
+  const Workplace place;
+  std::filesystem::create_directory(place.folder.path() / "tops");
+  for (const char* name : {"b10.png", "b9.png"}) write_png(place.folder.path() / "tops" / name, small_image());
+  const auto one = nlohmann::json::parse(place.run("model.safetensors --image top.png --json").out);
+  const Ran ran = place.run("model.safetensors --image tops --json --plot pictures --quiet");
+  REQUIRE(ran.status == 0);
+  const auto images = nlohmann::json::parse(ran.out).at("images");
+  REQUIRE(images.size() == 2);
+  CHECK(images[0].at("image") == "b9.png");
+  CHECK(images[1].at("image") == "b10.png");
+  CHECK(images[1].at("views") == one.at("views"));
+  CHECK(read_image(place.folder.path() / "pictures/b9.png").width == 1232);
+
+  std::filesystem::create_directory(place.folder.path() / "empty");
+  const Ran empty = place.run("model.safetensors --image empty");
+  CHECK(empty.status == 1);
+  CHECK_THAT(empty.err, Catch::Contains("empty: holds no PNG, JPEG or WebP file, and no data set"));
+}
+
+TEST_CASE("svnet-predict chooses among the views of a data set, and shows the one that it chose") {
+  const Workplace place;
+  const auto pose = place.folder.path() / "data/mug/1/1";
+  std::filesystem::create_directories(pose);
+  for (const char* name : {"90_90.png", "45_0.png", "60_135.png"}) write_png(pose / name, small_image());
+  const Ran ran = place.run("model.safetensors --image data --json --plot pictures --quiet");
+  REQUIRE(ran.status == 0);
+  const auto image = nlohmann::json::parse(ran.out).at("images").at(0);
+  CHECK(image.at("image") == "mug/1/1/90_90.png");
+  CHECK(image.at("views").size() == 3);
+  CHECK(read_image(place.folder.path() / "pictures/mug_1_1_90_90.png").width == 1768);
+  const Ran grid = place.run("model.safetensors --image data --json --grid --quiet");
+  CHECK(nlohmann::json::parse(grid.out).at("images").at(0).at("views").size() == paper_grid().size());
+}

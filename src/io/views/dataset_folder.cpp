@@ -174,6 +174,15 @@ ViewDataset read_view_dataset(const fs::path& root, ExifOrientation exif_orienta
   return dataset;
 }
 
+std::optional<fs::path> find_top_depth(const ViewDataset& dataset, Index pose) {
+  const fs::path image = dataset.views[static_cast<std::size_t>(dataset.top_view(pose))].path;
+  for (const char* ending : {"_depth.png", "_depth.npy"}) {
+    const fs::path file = dataset.root / "_extra" / image.parent_path() / (image.stem().string() + ending);
+    if (fs::exists(file)) return file;
+  }
+  return {};
+}
+
 std::string fingerprint(const ViewDataset& dataset, Parallel& parallel) {
   std::vector<std::size_t> order(dataset.views.size());
   std::iota(order.begin(), order.end(), std::size_t{0});

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "base/parallel.h"
@@ -19,6 +20,10 @@ bool is_ignored_name(const std::filesystem::path& name);
 /// belong there: not a view, an angle out of range, a view that exists twice, a pose without top view, an empty folder.
 ViewDataset read_view_dataset(const std::filesystem::path& root,
                               ExifOrientation exif_orientation = ExifOrientation::ignore);
+
+/// The depth image of the top view of a pose, _extra/<folders of the pose>/90_90_depth.png or .npy below the dataset's
+/// root, if there is one.
+std::optional<std::filesystem::path> find_top_depth(const ViewDataset&, Index pose);
 
 /// A SHA-256 over the path and the SHA-256 of every view's file, sorted by path: 64 hexadecimal digits. It does not
 /// depend on the root. It is another one if EXIF orientation is obeyed.

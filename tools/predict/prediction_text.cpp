@@ -1,0 +1,45 @@
+#include "predict/prediction_text.h"
+
+#include <iomanip>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+namespace svnet {
+using view::CameraPose;
+
+namespace {
+
+nlohmann::ordered_json views_json(const Prediction& prediction, const std::vector<std::size_t>& indices) {
+  nlohmann::ordered_json views = nlohmann::ordered_json::array();
+  for (const std::size_t i : indices) {
+    const CameraPose& pose = prediction.poses[i];
+    views.push_back({{"theta_deg", pose.theta_deg}, {"phi_deg", pose.phi_deg}, {"score", prediction.scores[i]}});
+  }
+  return views;
+}
+
+}  // namespace
+
+std::string table_text(const Prediction& prediction, const std::vector<std::size_t>& indices) {
+  std::ostringstream text;
+  text << std::setw(10) << "theta" << std::setw(10) << "phi" << std::setw(12) << "score";
+  for (const std::size_t i : indices)
+    text << '\n'
+         << std::setw(10) << prediction.poses[i].theta_deg << std::setw(10) << prediction.poses[i].phi_deg
+         << std::setw(12) << std::fixed << std::setprecision(6) << prediction.scores[i] << std::defaultfloat;
+  return text.str();
+}
+
+nlohmann::ordered_json prediction_json(const Prediction& prediction) {
+  const nlohmann::ordered_json views = views_json(prediction, predict::best_first(prediction.scores));
+  const predict::Familiarity& top_view = prediction.familiarity;
+  const nlohmann::ordered_json top{
+      {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
+  return {{"best", views.front()},
+          {"best_views", views_json(prediction, prediction.best)},
+          {"margin_over_top", prediction.margin_over_top},
+          {"views", views},
+          {"top_view", top}};
+}
+
+}  // namespace svnet
