@@ -8,6 +8,7 @@
 #include "models/sv_net.h"
 #include "nn/graph/parameters.h"
 #include "nn/graph/stored_precision.h"
+#include "nn/runtime/inference_options.h"
 
 namespace svnet {
 
@@ -55,6 +56,12 @@ struct Model {
   /// How a file holds the kernels. In int8 their values are products of whole numbers and scales.
   StoredPrecision precision = StoredPrecision::f32;
 };
+
+/// `options` for the networks of a model: those of an int8 model keep their dense layers in int8.
+inline InferenceOptions inference_options(const Model& model, InferenceOptions options = {}) {
+  options.int8_dense = options.int8_dense || model.precision == StoredPrecision::int8;
+  return options;
+}
 
 /// What the head of a model in a frame other than `camera` sees.
 inline frame::FrameSpec frame_spec(const Model& model) {

@@ -12,14 +12,6 @@
 #include "view/symmetry.h"
 
 namespace svnet::predict {
-namespace {
-
-InferenceOptions options_of(const Model& model, InferenceOptions options) {
-  options.int8_dense = options.int8_dense || model.precision == StoredPrecision::int8;
-  return options;
-}
-
-}  // namespace
 
 Predictor::Predictor(const std::filesystem::path& model_file, const InferenceOptions& options)
     : Predictor(io::read_model(model_file), options) {}
@@ -29,10 +21,10 @@ Predictor::Predictor(const Model& model, const InferenceOptions& options)
       preprocessing_(model.preprocessing),
       symmetries_(model.symmetries),
       depth_(model.depth),
-      head_(model, options_of(model, options)) {
+      head_(model, inference_options(model, options)) {
   if (frame::has_backbone(model.frame))
     backbone_.emplace(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
-                      options_of(model, options));
+                      inference_options(model, options));
 }
 
 Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {

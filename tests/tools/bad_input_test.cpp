@@ -37,7 +37,7 @@ struct Row {
 const Row kRows[] = {
     // images
     {"missing image", "", PREDICT "none.png", "none.png: no such file"},
-    {"a folder as image", "", PREDICT "data", "data: is a folder, expected an image (PNG, JPEG or WebP)"},
+    {"a folder without images", "mkdir none", PREDICT "none", "none: holds no PNG, JPEG or WebP file, and no data set"},
     {"truncated JPEG", "head -c -40 $IMAGES/rgb.jpg >bad.jpg", PREDICT "bad.jpg",
      "bad.jpg: is a damaged or incomplete JPEG image"},
     {"truncated PNG", "head -c -40 top.png >bad.png", PREDICT "bad.png",

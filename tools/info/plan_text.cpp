@@ -68,8 +68,9 @@ std::string backbone_plan(const std::string& name, const std::string& layer, Ind
   return joined(name, " to ", backbone.output_name(), "\n", plan_text(backbone.network(), batch));
 }
 
-std::string model_plan(const std::filesystem::path& file, Index batch, const InferenceOptions& options) {
+std::string model_plan(const std::filesystem::path& file, Index batch, const InferenceOptions& asked) {
   const Model model = io::read_model(file);
+  const InferenceOptions options = inference_options(model, asked);
   const Inference head(model.head, model.head_parameters, model.head.output(), options);
   const std::string head_text = joined("SV-net\n", plan_text(head, batch));
   if (!frame::has_backbone(model.frame)) return head_text;

@@ -9,6 +9,14 @@
 
 #include "nn/kernels/packed/panel.h"
 
+#ifndef SVNET_INT8_ROW_PANELS
+#define SVNET_INT8_ROW_PANELS
+namespace svnet::kernels {
+/// Panels that one row is multiplied with at once: enough sums to hide the time of a multiplication.
+inline constexpr Index kRowPanels = 4;
+}  // namespace svnet::kernels
+#endif
+
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
 namespace HWY_NAMESPACE {
@@ -30,6 +38,43 @@ void panel_from_int8(const std::int8_t* panel, Index rows, const float* scales, 
   }
 }
 
+/// One row of the product with `count` panels, `count` in [1, kRowPanels], that are panel_stride bytes apart. Weights
+/// become f32 in registers. sums (count, 16).
+void row_times_int8(const float* a, Index depth, const std::int8_t* panel, Index panel_stride, Index count,
+                    const float* scales, float* sums) {
+  namespace hn = hwy::HWY_NAMESPACE;
+  const hn::CappedTag<float, kPanel> floats;
+  const hn::Rebind<std::int32_t, decltype(floats)> wide;
+  const hn::Rebind<std::int8_t, decltype(floats)> narrow;
+  const auto lanes = static_cast<Index>(hn::Lanes(floats));
+  const Index last = count - 1;
+  for (Index column = 0; column < kPanel; column += lanes) {
+    const auto at = [&](Index p) { return std::min(p, last); };  // panels that are not there repeat the last one
+    const std::int8_t* from[kRowPanels];
+    for (Index p = 0; p < kRowPanels; ++p) from[p] = panel + at(p) * panel_stride + column;
+    const auto scale = [&](Index p) { return hn::Load(floats, scales + at(p) * kPanel + column); };
+    const auto s0 = scale(0), s1 = scale(1), s2 = scale(2), s3 = scale(3);
+    const auto weight = [&](Index p, Index k, auto factor) {
+      return hn::Mul(hn::ConvertTo(floats, hn::PromoteTo(wide, hn::LoadU(narrow, from[p] + k * kPanel))), factor);
+    };
+    auto y0 = hn::Zero(floats), y1 = y0, y2 = y0, y3 = y0;
+    for (Index k = 0; k < depth; ++k) {
+      const auto x = hn::Set(floats, a[k]);
+      y0 = hn::MulAdd(x, weight(0, k, s0), y0);
+      y1 = hn::MulAdd(x, weight(1, k, s1), y1);
+      y2 = hn::MulAdd(x, weight(2, k, s2), y2);
+      y3 = hn::MulAdd(x, weight(3, k, s3), y3);
+    }
+    const auto store = [&](Index p, auto y) {
+      if (p <= last) hn::Store(y, floats, sums + p * kPanel + column);
+    };
+    store(0, y0);
+    store(1, y1);
+    store(2, y2);
+    store(3, y3);
+  }
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace svnet::kernels
 HWY_AFTER_NAMESPACE();
@@ -41,6 +86,7 @@ HWY_AFTER_NAMESPACE();
 namespace svnet::kernels {
 
 HWY_EXPORT(panel_from_int8);
+HWY_EXPORT(row_times_int8);
 
 namespace {
 
@@ -66,6 +112,25 @@ void multiply_int8(const TileKernels& kernels, Index count, Index rows, const fl
                      .columns = n - p * kPanel});
   }
 }
+
+/// A row with `count` panels from p on. With so few rows, weights that go through memory would take most of the time.
+void multiply_row(const float* a, const PackedInt8& weights, Index p, Index count, const PackedFinish& finish,
+                  float* c) {
+  const auto [low, high] = range_of(finish.clamp);
+  const Index depth = weights.depth;
+  alignas(64) float sums[kRowPanels * kPanel];
+  HWY_DYNAMIC_DISPATCH(row_times_int8)
+  (a, depth, weights.panels.get() + p * depth * kPanel, depth * kPanel, count, weights.scales.get() + p * kPanel, sums);
+  const Index first = p * kPanel, columns = std::min(count * kPanel, weights.n - first);
+  for (Index i = 0; i < columns; ++i) {
+    float y = sums[i] + weights.bias.get()[first + i];
+    if (finish.residual != nullptr) y += finish.residual[first + i];
+    y = y < low ? low : y;
+    c[first + i] = y > high ? high : y;
+  }
+}
+
+constexpr Index kFewRows = 2;
 
 }  // namespace
 
@@ -97,7 +162,16 @@ PackedInt8 packed_int8(Index depth, Index n, const float* w, const float* bias) 
 
 void int8_gemm(Parallel& parallel, Index rows, const float* a, const PackedInt8& weights, const PackedFinish& finish,
                float* c, float* scratch) {
-  if (rows == 0) return;
+  if (rows <= kFewRows) {
+    const Index all = panels(weights.n);
+    return parallel.for_chunks(all, kRowPanels, [&](Index first, Index last, int) {
+      for (Index row = 0; row < rows; ++row) {
+        PackedFinish here = finish;
+        if (here.residual != nullptr) here.residual += row * weights.n;
+        multiply_row(a + row * weights.depth, weights, first, last - first, here, c + row * weights.n);
+      }
+    });
+  }
   const TileKernels kernels = f32_tiles();
   const Index block = packed_block_rows(rows, weights.depth), blocks = (rows + block - 1) / block;
   const Index all = panels(weights.n), groups = (all + kernels.panels - 1) / kernels.panels;
