@@ -1,6 +1,5 @@
 // svnet-predict: which camera poses show the most of an object, from its top image.
 #include <algorithm>
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -12,6 +11,7 @@
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "io/views/pose_list_file.h"
+#include "predict/familiarity_note.h"
 #include "predict/prediction_picture.h"
 #include "predict/prediction_text.h"
 #include "predict/predictor.h"
@@ -66,7 +66,8 @@ class PredictCommand {
     std::vector<std::size_t> chosen(std::min(static_cast<std::size_t>(std::max<Index>(a_.best, 1)), poses.size()));
     chosen.resize(predict::best_views(scores, poses, a_.min_angle_deg, chosen));
     const auto familiarity = predictor_.familiarity(features);
-    warn_of_shape(from, familiarity);
+    if (const std::string note = predict::familiarity_note(familiarity); !note.empty())
+      console_.line(from.image.string() + ": " + note);
     if (!plot.empty()) {
       std::optional<Image> view;
       if (has_views) view = top_image(from.views[chosen[0]], a_.exif, console_);
@@ -111,14 +112,6 @@ class PredictCommand {
  private:
   std::vector<std::size_t> printed(const Prediction& prediction) const {
     return a_.best > 0 ? prediction.best : predict::best_first(prediction.scores);
-  }
-
-  void warn_of_shape(const TopImage& from, const predict::Familiarity& familiarity) const {
-    if (familiarity.trust < 1)
-      console_.line(joined(from.image.string(),
-                           ": the object's shape is unlike those that the model was trained on: distance ",
-                           familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
-                           std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
   }
 
   const Arguments& a_;

@@ -79,11 +79,7 @@ class Original {
       return predictor_->scores(sample.features.defined() ? sample.features : predictor_->embed(sample.picture),
                                 sample.poses);
     Tensor input = sample.pose_inputs;
-    if (part_ == ModelPart::backbone) {
-      const models::Preprocessing& p = model_.preprocessing;
-      input = Tensor::empty({1, p.height, p.width, 3});
-      prepare(p, sample.picture, input.data<float>());
-    }
+    if (part_ == ModelPart::backbone) input = network_picture(model_, sample.picture, false);
     const Tensor output = network_->run({input});
     return {output.data<float>(), output.data<float>() + output.size()};
   }
@@ -131,6 +127,22 @@ Agreement agreement(const std::string& name, const Model& model, ModelPart part,
   check(result.largest_difference <= bound, name,
         ": the export does not compute what the model computes: ", result.text(bound), "; nothing was written");
   return result;
+}
+
+void check_part(const Model& model, ModelPart part) {
+  check(frame::has_backbone(model.frame) || part == ModelPart::head, "[export] the model is in the frame ",
+        name_of(model.frame), ", which has no network for the image; export its head with --part head");
+  check(model.frame == frame::FrameChoice::camera || part != ModelPart::all, "[export] the model is in the frame ",
+        name_of(model.frame),
+        ", whose inputs are computed outside the networks; export these with --part backbone and --part head");
+}
+
+Tensor network_picture(const Model& model, const Image& picture, bool raw) {
+  models::Preprocessing p = model.preprocessing;
+  if (raw) p.mode = models::PixelMode::none;
+  Tensor prepared = Tensor::empty({1, p.height, p.width, 3});
+  prepare(p, picture, prepared.data<float>());
+  return prepared;
 }
 
 double bound_of(StoredPrecision precision) {

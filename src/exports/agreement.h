@@ -37,6 +37,12 @@ struct Agreement {
 Agreement agreement(const std::string& name, const Model& model, ModelPart part, const ExportedPart& exported,
                     double bound);
 
+/// Throws Error that says which part to export unless the model has `part` (data/model_part.h).
+void check_part(const Model& model, ModelPart part);
+
+/// The picture (1, H, W, 3) as the backbone takes it; `raw`: resized only, with values 0 to 255.
+Tensor network_picture(const Model& model, const Image& picture, bool raw);
+
 /// The largest difference of scores that an export may have: 1e-5 in f32, 5e-3 in bf16, 2e-2 in int8.
 double bound_of(StoredPrecision precision);
 

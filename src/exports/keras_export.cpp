@@ -15,18 +15,6 @@ namespace {
 using models::AngleEncoding;
 using models::GraphWithParameters;
 
-void check_part(const Model& model, ModelPart part) {
-  check(frame::has_backbone(model.frame) || part == ModelPart::head, "[keras] the model is in the frame ",
-        name_of(model.frame), ", which has no network for the image; export its head with --part head");
-  check(part != ModelPart::all || model.frame == frame::FrameChoice::camera, "[keras] the model is in the frame ",
-        name_of(model.frame),
-        ", whose inputs are computed outside the networks; export these with --part backbone and --part head");
-  check(
-      part != ModelPart::all || model.symmetries == 1,
-      "[keras] the model averages over the orientations of the image, which a Keras model cannot say in layers; export "
-      "its networks with --part backbone and --part head, or the whole to ONNX");
-}
-
 GraphWithParameters network_of(const Model& model, const KerasExport& options) {
   if (options.part == ModelPart::head) return {model.head, model.head_parameters};
   GraphWithParameters backbone{model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output)),
@@ -74,10 +62,8 @@ Tensor repeated(const float* row, Index size, Shape shape, Index count) {
 std::vector<Tensor> inputs_of(const Model& model, const KerasExport& options, const Sample& sample) {
   if (sample.pose_inputs.defined()) return {sample.pose_inputs};
   const auto count = static_cast<Index>(sample.poses.size());
-  models::Preprocessing p = model.preprocessing;
-  if (options.preprocessing) p.mode = models::PixelMode::none;
-  Tensor picture = Tensor::empty({1, p.height, p.width, 3});
-  if (options.part != ModelPart::head) prepare(p, sample.picture, picture.data<float>());
+  Tensor picture;
+  if (options.part != ModelPart::head) picture = network_picture(model, sample.picture, options.preprocessing);
   if (options.part == ModelPart::backbone) return {picture};
   const Index angles = angle_count(model.angles);
   Tensor encoded = Tensor::empty({count, angles});
@@ -94,6 +80,9 @@ std::vector<Tensor> inputs_of(const Model& model, const KerasExport& options, co
 
 Agreement export_keras(const Model& model, const std::filesystem::path& folder, const KerasExport& options) {
   check_part(model, options.part);
+  check(options.part != ModelPart::all || model.symmetries == 1,
+        "[keras] the model averages over the orientations of the image, which a Keras model cannot say in layers; "
+        "export its networks with --part backbone and --part head, or the whole to ONNX");
   const GraphWithParameters network = network_of(model, options);
   io::FreshFolder fresh(folder);
   io::write_keras_model(fresh.path(), network.graph, network.parameters);

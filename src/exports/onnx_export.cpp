@@ -13,14 +13,6 @@ io::OnnxTensor onnx_tensor(const Tensor& from) {
   return {from.shape(), {values.begin(), values.end()}};
 }
 
-io::OnnxTensor picture_tensor(const Model& model, const Image& picture, bool raw) {
-  models::Preprocessing p = model.preprocessing;
-  if (raw) p.mode = models::PixelMode::none;
-  io::OnnxTensor tensor{{1, p.height, p.width, 3}, std::vector<float>(static_cast<std::size_t>(p.size()))};
-  prepare(p, picture, tensor.values.data());
-  return tensor;
-}
-
 io::OnnxTensor pose_tensor(const std::vector<view::CameraPose>& poses) {
   io::OnnxTensor tensor{{static_cast<Index>(poses.size()), 2}, {}};
   for (const view::CameraPose& pose : poses)
@@ -31,6 +23,7 @@ io::OnnxTensor pose_tensor(const std::vector<view::CameraPose>& poses) {
 }  // namespace
 
 Agreement export_onnx(const Model& model, const std::filesystem::path& path, const OnnxExport& options) {
+  check_part(model, options.part);
   std::string bytes;
   {
     const io::OnnxGraph graph = io::model_onnx(
@@ -42,7 +35,7 @@ Agreement export_onnx(const Model& model, const std::filesystem::path& path, con
     std::map<std::string, io::OnnxTensor> inputs;
     for (const io::OnnxPort& port : written.inputs)
       if (port.name == "image")
-        inputs[port.name] = picture_tensor(model, sample.picture, options.preprocessing);
+        inputs[port.name] = onnx_tensor(network_picture(model, sample.picture, options.preprocessing));
       else if (port.name == "poses_deg")
         inputs[port.name] = pose_tensor(sample.poses);
       else

@@ -1,12 +1,12 @@
 #include "serve/prediction.h"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "image/oriented.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_codecs.h"
 #include "io/images/image_file.h"
+#include "predict/familiarity_note.h"
 
 namespace svnet::serve {
 namespace {
@@ -50,10 +50,7 @@ Json prediction_json(const predict::Predictor& predictor, const PredictionReques
   const Image top = top_image(file, request.exif, notes);
   const Tensor features = predictor.embed(top, measured ? &*measured : nullptr);
   const auto familiarity = predictor.familiarity(features);
-  if (familiarity.trust < 1)
-    notes.push_back(joined("the object's shape is unlike those that the model was trained on: distance ",
-                           familiarity.distance, ", theirs are up to ", familiarity.limit, "; the shape counts ",
-                           std::lround(100 * familiarity.trust), " %, the rest is what holds for every object"));
+  if (std::string note = predict::familiarity_note(familiarity); !note.empty()) notes.push_back(std::move(note));
   const std::vector<float> scores = predictor.scores(features, request.poses);
   Json views = Json::array();
   for (const std::size_t i : predict::best_first(scores)) views.push_back(pose_json(request.poses[i], scores[i]));

@@ -22,11 +22,6 @@ class ModelEmission {
   ModelEmission(const Model& model, const OnnxOptions& options) : model_(model), options_(options) {}
 
   OnnxGraph graph() {
-    check(frame::has_backbone(model_.frame) || options_.part == ModelPart::head, "[onnx] the model is in the frame ",
-          name_of(model_.frame), ", which has no network for the image; export its head with --part head");
-    check(model_.frame == frame::FrameChoice::camera || options_.part != ModelPart::all,
-          "[onnx] the model is in the frame ", name_of(model_.frame),
-          ", whose inputs are computed outside the networks; export these with --part backbone and --part head");
     add_metadata();
     switch (options_.part) {
       case ModelPart::all:

@@ -23,7 +23,7 @@ struct OnnxOptions {
 /// The image has the size that the model takes. poses_deg are theta and phi in degrees. What depends on the image is
 /// computed once for all poses.
 ///
-/// Throws Error that says which part to export if the model has no such part.
+/// Requires that the model has that part (data/model_part.h). Throws Error for layers that cannot be said in ONNX.
 OnnxGraph model_onnx(const Model& model, const OnnxOptions& options);
 
 }  // namespace svnet::io
