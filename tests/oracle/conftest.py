@@ -1,5 +1,6 @@
 import os
 import pathlib
+import shutil
 
 import numpy as np
 import pytest
@@ -31,6 +32,22 @@ def shared():
         return root / relative
 
     return find
+
+
+@pytest.fixture(scope="session")
+def browser():
+    """Chromium (Debian: chromium) with a camera that shows a test picture. One for all tests: Playwright's synchronous
+    interface can be started only once at a time. Skips the test if there is no Chromium."""
+    programs = ["chromium", "chromium-browser", "google-chrome"]
+    program = next((found for name in programs if (found := shutil.which(name))), None)
+    if program is None:
+        pytest.skip("there is no Chromium here; on Debian: apt-get install chromium")
+    playwright = pytest.importorskip("playwright.sync_api")
+    camera = ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"]
+    with playwright.sync_playwright() as session:
+        started = session.chromium.launch(executable_path=program, args=["--no-sandbox", *camera])
+        yield started
+        started.close()
 
 
 def picture(path, size=224):

@@ -56,19 +56,6 @@ def pages(tmp_path_factory):
     return {"folds": folder / "folds/report.html", "epochs": folder / "epochs/report.html", "both": folder / "both.html"}
 
 
-@pytest.fixture(scope="session")
-def browser():
-    programs = ["chromium", "chromium-browser", "google-chrome"]
-    program = next((found for name in programs if (found := shutil.which(name))), None)
-    if program is None:
-        pytest.skip("there is no Chromium here; on Debian: apt-get install chromium")
-    playwright = pytest.importorskip("playwright.sync_api")
-    with playwright.sync_playwright() as session:
-        started = session.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield started
-        started.close()
-
-
 @pytest.mark.parametrize("name", ["folds", "epochs", "both"])
 @pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("scheme", ["light", "dark"])

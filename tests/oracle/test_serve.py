@@ -13,26 +13,12 @@ from serve_process import files, form, serve  # noqa: F401: fixtures
 TOKEN = "a-token-of-the-tests-0123456789"
 
 
-@pytest.fixture(scope="module")
-def chromium():
-    programs = ["chromium", "chromium-browser", "google-chrome"]
-    program = next((found for name in programs if (found := shutil.which(name))), None)
-    if program is None:
-        pytest.skip("there is no Chromium here; on Debian: apt-get install chromium")
-    playwright = pytest.importorskip("playwright.sync_api")
-    camera = ["--use-fake-device-for-media-stream", "--use-fake-ui-for-media-stream"]
-    with playwright.sync_playwright() as session:
-        started = session.chromium.launch(executable_path=program, args=["--no-sandbox", *camera])
-        yield started
-        started.close()
-
-
 class Page:
     """The page of a server, with what it complains of and asks for."""
 
-    def __init__(self, chromium, address, width=1280, scheme="light"):
-        self.context = chromium.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme,
-                                            permissions=["camera", "clipboard-read", "clipboard-write"])
+    def __init__(self, browser, address, width=1280, scheme="light"):
+        self.context = browser.new_context(viewport={"width": width, "height": 900}, color_scheme=scheme,
+                                           permissions=["camera", "clipboard-read", "clipboard-write"])
         self.page = self.context.new_page()
         self.complaints, self.requests = [], []
         self.page.on("console", lambda message: self.complaints.append(message.text))
@@ -72,8 +58,8 @@ class Page:
 
 @pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_page_in_a_browser(serve, chromium, files, width, scheme):
-    page = Page(chromium, serve("depth").address, width, scheme)
+def test_page_in_a_browser(serve, browser, files, width, scheme):
+    page = Page(browser, serve("depth").address, width, scheme)
     page.page.locator("#depth-panel").wait_for(state="visible")
     assert page.violations() == [] and page.overflow() <= 0
     page.choose(files / "top.png", files / "depth.npy")
@@ -92,9 +78,9 @@ def test_page_in_a_browser(serve, chromium, files, width, scheme):
     page.check_manners()
 
 
-def test_page_shows_what_the_interface_answers(serve, chromium, files):
+def test_page_shows_what_the_interface_answers(serve, browser, files):
     server = serve("axis")
-    page = Page(chromium, server.address)
+    page = Page(browser, server.address)
     page.choose(files / "top.jpg")
     status, body = server.ask("POST", "/v1/predict?grid=even&count=400&lowest_phi_deg=45&radius_m=0.5",
                               (files / "top.jpg").read_bytes(), {"Content-Type": "image/jpeg"})
@@ -118,8 +104,8 @@ def test_page_shows_what_the_interface_answers(serve, chromium, files):
     page.check_manners()
 
 
-def test_region_is_painted_erased_and_reset(serve, chromium, files):
-    page = Page(chromium, serve("axis").address)
+def test_region_is_painted_erased_and_reset(serve, browser, files):
+    page = Page(browser, serve("axis").address)
     page.choose(files / "top.png")
     assert "400 of 400 candidates" in page.facts()
     best = page.shown_json()
@@ -158,8 +144,8 @@ def test_region_is_painted_erased_and_reset(serve, chromium, files):
     page.check_manners()
 
 
-def test_half_sphere_is_used_by_keyboard(serve, chromium, files):
-    page = Page(chromium, serve("axis").address)
+def test_half_sphere_is_used_by_keyboard(serve, browser, files):
+    page = Page(browser, serve("axis").address)
     page.choose(files / "top.png")
     picture = "document.getElementById('sphere').toDataURL()"
     page.page.locator("#sphere").focus()
@@ -186,8 +172,8 @@ def test_half_sphere_is_used_by_keyboard(serve, chromium, files):
     page.check_manners()
 
 
-def test_camera_takes_the_top_image(serve, chromium):
-    page = Page(chromium, serve("small").address, width=390)
+def test_camera_takes_the_top_image(serve, browser):
+    page = Page(browser, serve("small").address, width=390)
     page.page.get_by_role("button", name="Use the camera").click()
     page.page.get_by_role("button", name="Take the picture").wait_for()
     assert page.violations() == [] and page.overflow() <= 0
@@ -198,8 +184,8 @@ def test_camera_takes_the_top_image(serve, chromium):
     page.check_manners()
 
 
-def test_dropped_file_is_the_top_image(serve, chromium, files):
-    page = Page(chromium, serve("axis").address)
+def test_dropped_file_is_the_top_image(serve, browser, files):
+    page = Page(browser, serve("axis").address)
     data = list((files / "top.png").read_bytes())
     transfer = page.page.evaluate_handle("""data => {
         const transfer = new DataTransfer();
@@ -211,8 +197,8 @@ def test_dropped_file_is_the_top_image(serve, chromium, files):
     page.check_manners()
 
 
-def test_page_shows_the_servers_own_errors(serve, chromium, files):
-    page = Page(chromium, serve("axis").address)
+def test_page_shows_the_servers_own_errors(serve, browser, files):
+    page = Page(browser, serve("axis").address)
     page.page.set_input_files("#image-file", files / "depth.npy")
     page.page.locator("#error").wait_for(state="visible")
     page.page.wait_for_timeout(300)
@@ -222,9 +208,9 @@ def test_page_shows_the_servers_own_errors(serve, chromium, files):
     page.context.close()
 
 
-def test_page_asks_for_the_token(serve, chromium, files):
+def test_page_asks_for_the_token(serve, browser, files):
     (files / "token").write_text(TOKEN + "\n")
-    page = Page(chromium, serve("axis", "--token-file", files / "token").address)
+    page = Page(browser, serve("axis", "--token-file", files / "token").address)
     page.page.locator("#token-form").wait_for(state="visible")
     page.page.fill("#token", TOKEN)
     page.page.get_by_role("button", name="Use it").click()
