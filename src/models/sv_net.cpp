@@ -11,6 +11,8 @@
 namespace svnet::models {
 namespace {
 
+constexpr double kHarmonicStrength = 4;
+
 NodeId dropout(Graph& g, const std::string& name, NodeId x, double rate) {
   return rate > 0 ? g.add(name, DropoutLayer{rate}, {x}) : x;
 }
@@ -54,12 +56,42 @@ void encode_angles(AngleEncoding encoding, double theta_deg, double phi_deg, flo
     case AngleEncoding::sphere:
       return write({std::cos(phi) * std::cos(theta), std::cos(phi) * std::sin(theta), std::sin(phi)});
     case AngleEncoding::harmonics: {
-      constexpr double kStrength = 4;
-      const double level = kStrength * std::numbers::sqrt2 * std::cos(phi);
+      const double level = kHarmonicStrength * std::numbers::sqrt2 * std::cos(phi);
       return write({level * std::cos(theta), level * std::sin(theta), level * std::cos(2 * theta),
-                    level * std::sin(2 * theta), kStrength * (phi_deg - 65) / 15});
+                    level * std::sin(2 * theta), kHarmonicStrength * (phi_deg - 65) / 15});
     }
   }
+}
+
+AngleRange linear_range(AngleEncoding encoding, const float* w, Index stride) {
+  constexpr double kPi = std::numbers::pi;
+  double low = 0, high = 0;
+  const auto weight = [&](Index i) { return static_cast<double>(w[i * stride]); };
+  const auto add = [&](Index i, double from, double to) {  // an angle in [from, to]
+    low += std::min(weight(i) * from, weight(i) * to);
+    high += std::max(weight(i) * from, weight(i) * to);
+  };
+  switch (encoding) {
+    case AngleEncoding::radians:
+      add(0, -kPi, kPi);
+      add(1, -kPi, -kPi / 2);
+      break;
+    case AngleEncoding::sphere: {
+      const double level = std::hypot(weight(0), weight(1)), up = weight(2);
+      low = up < 0 ? -std::hypot(level, up) : -level;
+      high = up > 0 ? std::hypot(level, up) : level;
+      break;
+    }
+    case AngleEncoding::harmonics: {
+      const double level = kHarmonicStrength * std::numbers::sqrt2 *
+                           (std::hypot(weight(0), weight(1)) + std::hypot(weight(2), weight(3)));
+      add(4, kHarmonicStrength * (0 - 65.0) / 15, kHarmonicStrength * (90 - 65.0) / 15);
+      low -= level;
+      high += level;
+      break;
+    }
+  }
+  return {static_cast<float>(low), static_cast<float>(high)};
 }
 
 Graph sv_net(const SvNetOptions& o) {

@@ -27,6 +27,13 @@ inline constexpr Index kMostAngles = 5;  ///< the largest angle_count
 /// Writes angle_count floats.
 void encode_angles(AngleEncoding, double theta_deg, double phi_deg, float* encoded);
 
+/// The least and the greatest value, over all poses of the half-sphere, of a sum of encoded angles with the weights
+/// w[0], w[stride], …; for harmonics they may lie outside of these.
+struct AngleRange {
+  float low, high;
+};
+AngleRange linear_range(AngleEncoding, const float* w, Index stride);
+
 struct SvNetOptions {
   Index features = 25088;
   Index width = 4096;

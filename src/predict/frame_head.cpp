@@ -40,7 +40,7 @@ void FrameHead::scores(std::span<const float> features, std::span<const view::Ca
     }
     const float* const input = w.inputs.data<float>();
     const auto values = scores.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(size));
-    network_.run({&input, 1}, size, values.data(), w.arena(w.each));
+    network_.run({&input, 1}, size, values.data(), w.arena(w.rest));
     check_finite(values, "score", static_cast<std::size_t>(begin));
   }
 }

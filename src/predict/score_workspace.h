@@ -2,6 +2,7 @@
 #include <vector>
 
 #include "nn/runtime/inference.h"
+#include "predict/pose_layers.h"
 
 namespace svnet::predict {
 
@@ -10,15 +11,18 @@ namespace svnet::predict {
 /// and one ScoreHead only.
 struct ScoreWorkspace {
   bool owns_arenas = true;  ///< false: networks borrow arenas, which is cheaper for a single call
-  Inference::Arena once{}, each{};
+  Inference::Arena once{}, rest{};
 
   // Of the frame `camera`.
-  Tensor features{};           ///< (symmetries, D / symmetries), those that `picture` belongs to; empty: none
-  Tensor picture{};            ///< (symmetries, units), the part of the network that depends on the features alone
-  int repeated_symmetry = -1;  ///< whose row of `picture` fills `repeated`
+  Tensor features{};                            ///< (symmetries, D / symmetries), of `pictures`; empty: none
+  Tensor units{};                               ///< (symmetries, units)
+  std::vector<PoseLayers::Picture> pictures{};  ///< of each symmetry
 
-  Tensor repeated{}, inputs{}, outputs{};  ///< of a batch of poses
-  std::vector<double> numbers{};           ///< frames other than `camera`: the inputs of a pose, numbers of the shape
+  // Of a batch of poses.
+  Tensor inputs{}, repeated{}, hidden{}, outputs{};  ///< `inputs`: of poses, encoded
+  PoseLayers::Buffers pose_buffers{};
+
+  std::vector<double> numbers{};  ///< frames other than `camera`: the inputs of a pose, numbers of the shape
 
   Inference::Arena* arena(Inference::Arena& own) const { return owns_arenas ? &own : nullptr; }
 };

@@ -6,12 +6,31 @@
 namespace svnet::predict {
 namespace {
 
-/// Where a folded graph is cut. Only dropout lies between the two.
+std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
+
+/// Where a folded graph is cut: the concatenation and three dense layers. Only dropout lies between them.
 struct Cut {
-  NodeId concat, dense;
+  NodeId concat, first, second, third;
 };
 
-std::size_t at(NodeId id) { return static_cast<std::size_t>(id); }
+std::vector<NodeId> readers_of(const Graph& graph, NodeId id) {
+  std::vector<NodeId> readers;
+  for (std::size_t i = 0; i < graph.nodes().size(); ++i)
+    for (const NodeId input : graph.nodes()[i].inputs)
+      if (input == id) readers.push_back(static_cast<NodeId>(i));
+  return readers;
+}
+
+/// The dense layer that alone reads `id`, past dropout, if it has that activation.
+std::optional<NodeId> dense_after(const Graph& graph, NodeId id, Activation activation) {
+  for (auto readers = readers_of(graph, id); readers.size() == 1; readers = readers_of(graph, id)) {
+    id = readers[0];
+    if (const auto* dense = graph.node(id).as<DenseLayer>())
+      return dense->activation == activation ? std::optional(id) : std::nullopt;
+    if (!graph.node(id).is<DropoutLayer>()) return {};
+  }
+  return {};
+}
 
 /// For each node whether it depends on `input`.
 std::vector<bool> dependents(const Graph& graph, NodeId input) {
@@ -22,47 +41,32 @@ std::vector<bool> dependents(const Graph& graph, NodeId input) {
   return depends;
 }
 
-/// For each node whether `first` is the only input that it depends on.
-std::vector<bool> depend_on_first_alone(const Graph& graph, NodeId first) {
-  std::vector<bool> alone = dependents(graph, first);
-  for (const NodeId input : graph.inputs()) {
-    if (input == first) continue;
-    const std::vector<bool> others = dependents(graph, input);
-    for (std::size_t i = 0; i < alone.size(); ++i) alone[i] = alone[i] && !others[i];
-  }
-  return alone;
+std::optional<Cut> cut_of(const Graph& graph, const std::vector<bool>& of_picture, NodeId angles) {
+  const auto readers = readers_of(graph, angles);
+  if (readers.size() != 1 || !graph.node(readers[0]).is<ConcatLayer>()) return {};
+  const NodeId concat = readers[0];
+  for (const NodeId input : graph.node(concat).inputs)
+    if (input != angles && !of_picture[at(input)]) return {};
+  // Whatever depends on the picture and not on the angles reaches the output through the concatenation alone.
+  const std::vector<bool> after = dependents(graph, concat);
+  for (std::size_t i = 0; i < after.size(); ++i)
+    if (after[i] && static_cast<NodeId>(i) != concat)
+      for (const NodeId input : graph.nodes()[i].inputs)
+        if (!after[at(input)]) return {};
+  const auto first = dense_after(graph, concat, Activation::relu);
+  const auto second = first ? dense_after(graph, *first, Activation::relu) : std::nullopt;
+  const auto third = second ? dense_after(graph, *second, Activation::none) : std::nullopt;
+  if (!third) return {};
+  return Cut{concat, *first, *second, *third};
 }
 
-std::vector<NodeId> readers_of(const Graph& graph, NodeId id) {
-  std::vector<NodeId> readers;
-  for (std::size_t i = 0; i < graph.nodes().size(); ++i)
-    for (const NodeId input : graph.nodes()[i].inputs)
-      if (input == id) readers.push_back(static_cast<NodeId>(i));
-  return readers;
-}
-
-std::optional<Cut> cut_of(const Graph& graph, const std::vector<bool>& alone) {
-  std::optional<NodeId> concat;
-  for (std::size_t i = 0; i < alone.size(); ++i) {
-    const auto& inputs = graph.nodes()[i].inputs;
-    if (alone[i] || std::none_of(inputs.begin(), inputs.end(), [&](NodeId id) { return alone[at(id)]; })) continue;
-    if (concat || !graph.nodes()[i].is<ConcatLayer>()) return {};
-    concat = static_cast<NodeId>(i);
-  }
-  if (!concat) return {};
-  NodeId last = *concat;
-  for (auto readers = readers_of(graph, last); readers.size() == 1; readers = readers_of(graph, last)) {
-    last = readers[0];
-    if (graph.node(last).is<DenseLayer>()) return Cut{*concat, last};
-    if (!graph.node(last).is<DropoutLayer>()) return {};
-  }
-  return {};
-}
-
-/// One of the two graphs while it is built from nodes of the whole one.
+/// A graph while it is built from nodes of the whole one.
 class Part {
  public:
   explicit Part(const FoldedGraph& whole) : whole_(whole), place_(whole.graph.nodes().size(), -1) {}
+
+  /// The value of a node of the whole graph as an input.
+  void input(NodeId id) { place_[at(id)] = part_.graph.input(whole_.graph.node(id).name, whole_.graph.node(id).shape); }
 
   void copy(NodeId id) {
     const GraphNode& node = whole_.graph.node(id);
@@ -71,77 +75,68 @@ class Part {
       part_.parameters.set(node.parameter_name(spec), whole_.parameters.at(node.parameter_name(spec)));
   }
 
-  /// The rows of the dense layer that read those inputs of the concatenation for which `taken` is as given. Returns its
-  /// node.
-  NodeId add_rows(const Cut& cut, const std::vector<bool>& alone, bool taken, bool with_bias) {
-    const GraphNode& concat = whole_.graph.node(cut.concat);
-    const GraphNode& dense = whole_.graph.node(cut.dense);
-    const Tensor& kernel = whole_.parameters.at(dense.name + "/kernel");
-    const Index units = kernel.dim(1);
-    std::vector<NodeId> inputs;
-    Index taken_rows = 0;
-    for (const NodeId id : concat.inputs)
-      if (alone[at(id)] == taken) {
-        inputs.push_back(id);
-        taken_rows += whole_.graph.node(id).shape.back();
-      }
-    Tensor rows = Tensor::empty({taken_rows, units});
-    const float* in = kernel.data<float>();
-    float* out = rows.data<float>();
-    for (const NodeId id : concat.inputs) {
-      const Index size = whole_.graph.node(id).shape.back() * units;
-      if (alone[at(id)] == taken) out = std::copy_n(in, size, out);
-      in += size;
-    }
-    std::vector<NodeId> from = placed(inputs);
-    if (from.size() > 1) from = {part_.graph.add(concat.name, ConcatLayer{}, from)};
-    const bool has_bias = with_bias && std::get<DenseLayer>(dense.layer).bias;
-    part_.parameters.set(dense.name + "/kernel", rows);
-    if (has_bias) part_.parameters.set(dense.name + "/bias", whole_.parameters.at(dense.name + "/bias"));
-    return part_.graph.add(dense.name, DenseLayer{.units = units, .bias = has_bias}, from);
-  }
-
-  void put(NodeId whole, NodeId part) { place_[at(whole)] = part; }
-  Graph& graph() { return part_.graph; }
-  FoldedGraph taken() && { return std::move(part_); }
-
- private:
   std::vector<NodeId> placed(const std::vector<NodeId>& ids) const {
     std::vector<NodeId> places;
     for (const NodeId id : ids) places.push_back(place_[at(id)]);
     return places;
   }
 
+  FoldedGraph& result() { return part_; }
+
+ private:
   const FoldedGraph& whole_;
   FoldedGraph part_{};
   std::vector<NodeId> place_;  // of each node of the whole graph; -1 if it has none
 };
 
-FoldedGraph once_part(const FoldedGraph& whole, const Cut& cut, const std::vector<bool>& alone) {
-  Part part(whole);
-  for (NodeId id = 0; id < cut.concat; ++id)
-    if (alone[at(id)]) part.copy(id);
-  part.add_rows(cut, alone, true, true);
-  return std::move(part).taken();
+/// The rows of the kernel of a dense layer that read those inputs of the concatenation for which `taken` holds.
+template <class Taken>
+Tensor rows_of(const FoldedGraph& whole, const Cut& cut, Taken taken) {
+  const Tensor& kernel = whole.parameters.at(whole.graph.node(cut.first).name + "/kernel");
+  const Index units = kernel.dim(1);
+  std::vector<float> rows;
+  const float* from = kernel.data<float>();
+  for (const NodeId id : whole.graph.node(cut.concat).inputs) {
+    const float* const end = from + whole.graph.node(id).shape.back() * units;
+    if (taken(id)) rows.insert(rows.end(), from, end);
+    from = end;
+  }
+  Tensor result = Tensor::empty({static_cast<Index>(rows.size()) / units, units});
+  std::ranges::copy(rows, result.data<float>());
+  return result;
 }
 
-FoldedGraph each_part(const FoldedGraph& whole, const Cut& cut, const std::vector<bool>& alone) {
-  const GraphNode& dense = whole.graph.node(cut.dense);
+Tensor bias_of(const FoldedGraph& whole, NodeId dense) {
+  const std::string name = whole.graph.node(dense).name + "/bias";
+  return whole.parameters.contains(name) ? whole.parameters.at(name) : Tensor();
+}
+
+FoldedGraph once_part(const FoldedGraph& whole, const Cut& cut, NodeId angles) {
   Part part(whole);
-  const NodeId once = part.graph().input(dense.name + " of the first input", dense.shape);
-  for (NodeId id = 0; id <= whole.graph.output(); ++id) {
-    if (alone[at(id)] || (id >= cut.concat && id < cut.dense && dependents(whole.graph, cut.concat)[at(id)])) continue;
-    if (id != cut.dense) {
-      part.copy(id);
-      continue;
-    }
-    const NodeId others = part.add_rows(cut, alone, false, false);
-    NodeId sum = part.graph().add(dense.name + " of all inputs", AddLayer{}, {others, once});
-    if (const Activation activation = std::get<DenseLayer>(dense.layer).activation; activation != Activation::none)
-      sum = part.graph().add(dense.name + " activation", ActivationLayer{activation}, {sum});
-    part.put(id, sum);
-  }
-  return std::move(part).taken();
+  const GraphNode &concat = whole.graph.node(cut.concat), &dense = whole.graph.node(cut.first);
+  const std::vector<bool> needed = whole.graph.ancestors(concat.inputs);
+  for (NodeId id = 0; id < cut.concat; ++id)
+    if (needed[at(id)] && id != angles) part.copy(id);
+  std::vector<NodeId> inputs = concat.inputs;
+  std::erase(inputs, angles);
+  FoldedGraph& once = part.result();
+  std::vector<NodeId> from = part.placed(inputs);
+  if (from.size() > 1) from = {once.graph.add(concat.name, ConcatLayer{}, from)};
+  const Tensor bias = bias_of(whole, cut.first);
+  once.graph.add(dense.name, DenseLayer{.units = std::get<DenseLayer>(dense.layer).units, .bias = bias.defined()},
+                 from);
+  once.parameters.set(dense.name + "/kernel", rows_of(whole, cut, [&](NodeId id) { return id != angles; }));
+  if (bias.defined()) once.parameters.set(dense.name + "/bias", bias);
+  return std::move(once);
+}
+
+FoldedGraph rest_part(const FoldedGraph& whole, const Cut& cut) {
+  Part part(whole);
+  part.input(cut.third);
+  const std::vector<bool> after = dependents(whole.graph, cut.third);
+  for (NodeId id = cut.third + 1; id <= whole.graph.output(); ++id)
+    if (after[at(id)]) part.copy(id);
+  return std::move(part.result());
 }
 
 }  // namespace
@@ -149,11 +144,19 @@ FoldedGraph each_part(const FoldedGraph& whole, const Cut& cut, const std::vecto
 std::optional<SplitGraph> split_graph(const Graph& graph, const Parameters& parameters, NodeId output) {
   const FoldedGraph whole = folded(graph, parameters, output);
   const std::vector<NodeId> inputs = whole.graph.inputs();
-  if (inputs.empty() || whole.graph.node(inputs[0]).name != graph.node(graph.inputs()[0]).name) return {};
-  const std::vector<bool> alone = depend_on_first_alone(whole.graph, inputs[0]);
-  const auto cut = cut_of(whole.graph, alone);
+  if (inputs.size() != 2 || whole.graph.node(inputs[0]).name != graph.node(graph.inputs()[0]).name) return {};
+  const NodeId angles = inputs[1];
+  const auto cut = cut_of(whole.graph, dependents(whole.graph, inputs[0]), angles);
   if (!cut) return {};
-  return SplitGraph{once_part(whole, *cut, alone), each_part(whole, *cut, alone)};
+  const auto kernel = [&](NodeId id) { return whole.parameters.at(whole.graph.node(id).name + "/kernel"); };
+  return SplitGraph{.once = once_part(whole, *cut, angles),
+                    .angle_kernel = rows_of(whole, *cut, [&](NodeId id) { return id == angles; }),
+                    .kernel = kernel(cut->second),
+                    .bias = bias_of(whole, cut->second),
+                    .layer = whole.graph.node(cut->second).name,
+                    .last_kernel = kernel(cut->third),
+                    .last_bias = bias_of(whole, cut->third),
+                    .rest = rest_part(whole, *cut)};
 }
 
 }  // namespace svnet::predict

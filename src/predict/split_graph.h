@@ -1,22 +1,30 @@
 #pragma once
 #include <optional>
+#include <string>
 
 #include "nn/runtime/folding.h"
 
 namespace svnet::predict {
 
-/// A graph that is cut where its first input meets the others, so that one value of the first input can be combined
-/// with many values of the others at little cost.
+/// A graph that is cut where its second input, the angles of a pose, meets the first, the picture, so that one picture
+/// can be combined with many poses at little cost:
+///   c = once(picture),  h = relu(c + angles · angle_kernel),  y = relu(h · kernel + bias),
+///   z = y · last_kernel + last_bias,  output = rest(z)
 struct SplitGraph {
-  FoldedGraph once;  ///< reads the first input; output (units)
-  FoldedGraph each;  ///< reads the output of `once`, then the other inputs in their order; the output of the whole
+  FoldedGraph once;     ///< output (units)
+  Tensor angle_kernel;  ///< (angles, units)
+  Tensor kernel;        ///< (units, n)
+  Tensor bias;          ///< (n), or an empty handle
+  std::string layer;    ///< the name of the layer with `kernel`
+  Tensor last_kernel;   ///< (n, m)
+  Tensor last_bias;     ///< (m), or an empty handle
+  FoldedGraph rest;     ///< reads (m)
 };
 
-/// Cuts a graph in which everything that depends on the first input alone leads into one concatenation, and that into
-/// one dense layer. Its kernel is cut by rows: `once` ends in W_first x + bias, and `each` begins with adding
-/// W_others a to it, before the activation. Batch norms are folded first (runtime/folding.h); dropout between the two
-/// layers is left out. Values agree with those of the whole graph up to rounding.
-/// Returns nothing if the graph has another form.
+/// Cuts a graph of two inputs in which everything that depends on the first one leads into one concatenation with the
+/// second one, and that into three dense layers, the first two with ReLU and the third without an activation. Batch
+/// norms are folded first (runtime/folding.h); dropout between these layers is left out. Values agree with those of the
+/// whole graph up to rounding. Returns nothing if the graph has another form.
 std::optional<SplitGraph> split_graph(const Graph& graph, const Parameters& parameters, NodeId output);
 
 }  // namespace svnet::predict

@@ -222,7 +222,8 @@ double percentile(const std::vector<Errors>& errors, std::size_t which, double s
 
 }  // namespace
 
-TEST_CASE("objects of every category are found within millimetres, except a few that the camera hardly sees") {
+TEST_CASE("objects of every category are found within millimetres, except a few that the camera hardly sees",
+          "[slow]") {
   const std::vector<Errors> errors = overview_errors(29, kDevelopment);
   const double limits_mm[] = {3, 3, 4, 5, 5, 5};
   for (std::size_t which = 0; which < 6; ++which) {
@@ -266,7 +267,7 @@ std::string refusal_from(const Eigen::Isometry3d& camera_to_world, const RgbdIma
 
 }  // namespace
 
-TEST_CASE("exchanged images are refused for objects of every height") {
+TEST_CASE("exchanged images are refused for objects of every height", "[slow]") {
   for (const char* name : {"mug", "bowl", "comb", "fork", "key", "knife", "pen", "plate", "scissors", "spoon"}) {
     INFO(name);
     const Mesh mesh = catalogue_object(name, 1, 3);

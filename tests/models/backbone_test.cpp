@@ -115,6 +115,31 @@ TEST_CASE("angles are encoded as documented") {
   for (Index i = 0; i < kMostAngles; ++i) CHECK(above[i] == Approx(encoded[i]).margin(1e-6));  // one and the same view
 }
 
+TEST_CASE("the range of a sum of angles holds its value at every pose") {
+  for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics}) {
+    const bool exact = encoding != AngleEncoding::harmonics;
+    for (const int signs : {0, 1, 2, 3, 4, 5, 6, 7, 21, 26}) {
+      float w[2 * kMostAngles];
+      for (int i = 0; i < kMostAngles; ++i)
+        w[2 * i] = (0.3f + 0.1f * static_cast<float>(i)) * (signs >> i & 1 ? -1 : 1);
+      const AngleRange range = linear_range(encoding, w, 2);
+      double low = 1e9, high = -1e9;
+      for (double theta = 0; theta <= 360; theta += 0.5)
+        for (double phi = 0; phi <= 90; phi += 0.5) {
+          float encoded[kMostAngles];
+          encode_angles(encoding, theta, phi, encoded);
+          double sum = 0;
+          for (Index i = 0; i < angle_count(encoding); ++i) sum += static_cast<double>(w[2 * i]) * encoded[i];
+          low = std::min(low, sum), high = std::max(high, sum);
+        }
+      CHECK(range.low <= low + 1e-5);
+      CHECK(range.high >= high - 1e-5);
+      if (exact) CHECK(range.low >= low - 1e-3);
+      if (exact) CHECK(range.high <= high + 1e-3);
+    }
+  }
+}
+
 TEST_CASE("an encoding of angles is known by its name") {
   for (const AngleEncoding encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics})
     CHECK(angle_encoding_named(name_of(encoding)) == encoding);

@@ -26,8 +26,34 @@ Parameters made_up_parameters(const Graph& graph) {
   return parameters;
 }
 
-/// The largest difference between the whole graph and its two parts, over three values of the first input and five of
-/// the second.
+/// x · kernel + bias, in f64.
+std::vector<double> dense(const std::vector<double>& x, const Tensor& kernel, const Tensor& bias) {
+  const Index n = kernel.dim(1);
+  std::vector<double> y;
+  for (Index i = 0; i < n; ++i) {
+    double sum = bias.defined() ? bias.data<float>()[i] : 0;
+    for (std::size_t k = 0; k < x.size(); ++k) sum += x[k] * kernel.data<float>()[static_cast<Index>(k) * n + i];
+    y.push_back(sum);
+  }
+  return y;
+}
+
+/// The layers between the two graphs of a split.
+Tensor between(const SplitGraph& split, const Tensor& c, const Tensor& angles) {
+  const auto relu = [](std::vector<double> x) {
+    for (double& value : x) value = std::max(value, 0.0);
+    return x;
+  };
+  const auto own = angles.values<float>();
+  const auto h = relu(dense({own.begin(), own.end()}, split.angle_kernel, c));
+  const auto z = dense(relu(dense(h, split.kernel, split.bias)), split.last_kernel, split.last_bias);
+  Tensor result = Tensor::empty({1, static_cast<Index>(z.size())});
+  std::ranges::transform(z, result.data<float>(), [](double x) { return static_cast<float>(x); });
+  return result;
+}
+
+/// The largest difference between the whole graph and its parts, over three values of the first input and five of the
+/// second.
 double largest_difference(const Graph& graph, const Parameters& parameters, const SplitGraph& split) {
   const Index firsts = element_count(graph.node(graph.inputs()[0]).shape),
               others = element_count(graph.node(graph.inputs()[1]).shape);
@@ -37,8 +63,8 @@ double largest_difference(const Graph& graph, const Parameters& parameters, cons
     const Tensor once = run_inference(split.once.graph, split.once.parameters, {first}, {split.once.graph.output()})[0];
     for (int i = 0; i < 5; ++i) {
       const Tensor other = small_weights({1, others}, static_cast<float>(i));
-      const Tensor parts =
-          run_inference(split.each.graph, split.each.parameters, {once, other}, {split.each.graph.output()})[0];
+      const Tensor parts = run_inference(split.rest.graph, split.rest.parameters, {between(split, once, other)},
+                                         {split.rest.graph.output()})[0];
       const Tensor whole = run_inference(graph, parameters, {first, other}, {graph.output()})[0];
       REQUIRE(parts.shape() == whole.shape());
       for (Index k = 0; k < whole.size(); ++k)
@@ -46,10 +72,6 @@ double largest_difference(const Graph& graph, const Parameters& parameters, cons
     }
   }
   return largest;
-}
-
-Shape kernel_of(const FoldedGraph& part, const std::string& layer) {
-  return part.parameters.at(layer + "/kernel").shape();
 }
 
 }  // namespace
@@ -61,32 +83,34 @@ TEST_CASE("SV-net is split where the pose enters, with its batch norms folded") 
     const auto split = split_graph(graph, parameters, graph.output());
     REQUIRE(split);
     CHECK(largest_difference(graph, parameters, *split) < 2e-6);
-    CHECK(kernel_of(split->once, "mlp2_1_relu") == Shape{12, 12});
-    CHECK(kernel_of(split->each, "mlp2_1_relu") == Shape{2, 12});
-    CHECK_FALSE(split->each.parameters.contains("mlp2_1_relu/bias"));
-    CHECK_FALSE(split->each.parameters.contains("mlp1_1_relu/kernel"));
+    CHECK(split->once.parameters.at("mlp2_1_relu/kernel").shape() == Shape{12, 12});
+    CHECK(split->angle_kernel.shape() == Shape{2, 12});
+    CHECK(split->kernel.shape() == Shape{12, 12});
+    CHECK(split->layer == "mlp2_2_relu");
     CHECK(split->once.graph.inputs().size() == 1);
-    CHECK(split->each.graph.node(split->each.graph.inputs()[0]).shape == Shape{12});
-    for (const FoldedGraph* part : {&split->once, &split->each})
+    CHECK(split->last_kernel.shape() == Shape{12, 1});
+    CHECK(split->rest.graph.node(split->rest.graph.inputs()[0]).shape == Shape{1});
+    CHECK(split->rest.graph.nodes().size() == 2);  // with the sigmoid
+    for (const FoldedGraph* part : {&split->once, &split->rest})
       for (const auto& node : part->graph.nodes()) CHECK_FALSE(node.is<BatchNormLayer>());
   }
 }
 
 TEST_CASE("a concatenation of several parts in any order is split") {
   Graph graph;
-  const NodeId first = graph.input("picture", {6}), second = graph.input("pose", {3});
+  const NodeId first = graph.input("picture", {6}), pose = graph.input("pose", {3});
   const NodeId deep = graph.add("deep", DenseLayer{.units = 5, .activation = Activation::relu}, {first});
-  const NodeId turned = graph.add("turned", DenseLayer{.units = 4, .activation = Activation::sigmoid}, {second});
-  const NodeId all = graph.add("all", ConcatLayer{}, {turned, first, second, deep});
-  const NodeId hidden = graph.add("hidden", DenseLayer{.units = 7, .activation = Activation::sigmoid},
+  const NodeId all = graph.add("all", ConcatLayer{}, {first, pose, deep});
+  const NodeId hidden = graph.add("hidden", DenseLayer{.units = 7, .activation = Activation::relu},
                                   {graph.add("drop", DropoutLayer{0.5}, {all})});
-  graph.add("out", DenseLayer{.units = 2}, {hidden});
+  const NodeId second = graph.add("second", DenseLayer{.units = 4, .activation = Activation::relu}, {hidden});
+  graph.add("out", DenseLayer{.units = 2, .bias = false}, {second});
   const Parameters parameters = made_up_parameters(graph);
   const auto split = split_graph(graph, parameters, graph.output());
   REQUIRE(split);
   CHECK(largest_difference(graph, parameters, *split) < 2e-6);
-  CHECK(kernel_of(split->once, "hidden") == Shape{11, 7});
-  CHECK(kernel_of(split->each, "hidden") == Shape{7, 7});
+  CHECK(split->once.parameters.at("hidden/kernel").shape() == Shape{11, 7});
+  CHECK_FALSE(split->last_bias.defined());
 }
 
 TEST_CASE("graphs of another form are not split") {
@@ -95,6 +119,21 @@ TEST_CASE("graphs of another form are not split") {
   };
   CHECK_FALSE(is_split(models::linear_head(4)));
   CHECK_FALSE(is_split(models::mixed_head(4, 2)));
+
+  const auto ends_in = [](Activation first, Activation second, Activation third) {
+    Graph graph;
+    const NodeId all = graph.add("all", ConcatLayer{}, {graph.input("picture", {6}), graph.input("pose", {3})});
+    const NodeId hidden = graph.add("hidden", DenseLayer{.units = 4, .activation = first}, {all});
+    const NodeId last = graph.add("last", DenseLayer{.units = 3, .activation = second}, {hidden});
+    graph.add("out", DenseLayer{.units = 2, .activation = third}, {last});
+    return graph;
+  };
+  constexpr Activation kRelu = Activation::relu, kNone = Activation::none, kSigmoid = Activation::sigmoid;
+  CHECK(is_split(ends_in(kRelu, kRelu, kNone)));
+  CHECK_FALSE(is_split(ends_in(kSigmoid, kRelu, kNone)));
+  CHECK_FALSE(is_split(ends_in(kRelu, kSigmoid, kNone)));
+  CHECK_FALSE(is_split(ends_in(kRelu, kNone, kNone)));
+  CHECK_FALSE(is_split(ends_in(kRelu, kRelu, kSigmoid)));
 
   Graph activated;  // the concatenation is changed before the dense layer
   NodeId x = activated.input("picture", {6}), pose = activated.input("pose", {3});

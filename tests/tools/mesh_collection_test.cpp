@@ -41,7 +41,7 @@ nlohmann::json manifest(const TemporaryFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("one bad mesh, one without its texture and one in another unit cost eleven objects of twelve nothing") {
+TEST_CASE("one bad mesh, one without its texture and one in another unit cost eleven objects of twelve nothing", "[slow]") {
   const TemporaryFolder folder;
   for (int i = 1; i <= 9; ++i) folder.write("meshes/box/good" + std::to_string(i) + ".obj", box(0.08, 0.06, 0.05));
   folder.write("meshes/box/broken.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n");

@@ -25,7 +25,7 @@ constexpr const char* kRender = SVNET_RENDER " --quiet --categories mug,key --ob
 
 }  // namespace
 
-TEST_CASE("svnet-render writes a dataset, the same for any number of threads") {
+TEST_CASE("svnet-render writes a dataset, the same for any number of threads", "[slow]") {
   const TemporaryFolder folder;
   REQUIRE(run(folder, std::string(kRender) + "--threads 1 --output one").status == 0);
   REQUIRE(run(folder, std::string(kRender) + "--threads 3 --output three/").status == 0);

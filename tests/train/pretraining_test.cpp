@@ -53,7 +53,7 @@ TEST_CASE("pretraining learns, and gives the same bits for any number of threads
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("a pretrained backbone distinguishes new objects") {
+TEST_CASE("a pretrained backbone distinguishes new objects", "[slow]") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path());
   PretrainingOptions options = small_options();

@@ -275,7 +275,7 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   }
 }
 
-TEST_CASE("top images in every orientation give eight times the examples, the same for any number of threads") {
+TEST_CASE("top images in every orientation give eight times the examples, the same for any number of threads", "[slow]") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");

@@ -205,7 +205,7 @@ TEST_CASE("a round resumes from its snapshot") {
   CHECK_FALSE(fs::exists(snapshot_path(path)));
 }
 
-TEST_CASE("rounds of several backbones run end to end, the same for any number of threads, and resume") {
+TEST_CASE("rounds of several backbones run end to end, the same for any number of threads, and resume", "[slow]") {
   const Scene scene;
   Config config = scene.defaults;
   config.scores.rounds = 2;

@@ -49,7 +49,7 @@ struct Bars {
 
 }  // namespace
 
-TEST_CASE("a model with turns is trained, written, and predicts outside of the run what it predicts in it") {
+TEST_CASE("a model with turns is trained, written, and predicts outside of the run what it predicts in it", "[slow]") {
   const FrameChoice choice = GENERATE(FrameChoice::turned, FrameChoice::turned_axis);
   const auto depth = choice == FrameChoice::turned ? frame::DepthChoice::none : frame::DepthChoice::heights;
   Bars bars;
@@ -118,8 +118,8 @@ TEST_CASE("features of turns are made once, and the fingerprint of the model cov
   CHECK(features.turned_components("tiny_xception", "block4_act", run.training_categories()).directions == with);
 }
 
-TEST_CASE(
-    "cross-validation with turns beats chance on other categories, with the same bits for any number of threads") {
+TEST_CASE("cross-validation with turns beats chance on other categories, with the same bits for any number of threads",
+          "[slow]") {
   Bars bars;
   bars.config.dataset.held_out = {};
   bars.config.scores.problems = 600;

@@ -38,10 +38,11 @@ void panel_from_int8(const std::int8_t* panel, Index rows, const float* scales, 
   }
 }
 
-/// One row of the product with `count` panels, `count` in [1, kRowPanels], that are panel_stride bytes apart. Weights
-/// become f32 in registers. sums (count, 16).
-void row_times_int8(const float* a, Index depth, const std::int8_t* panel, Index panel_stride, Index count,
-                    const float* scales, float* sums) {
+/// kRows rows of the product with `count` panels, `count` in [1, kRowPanels], that are panel_stride bytes apart.
+/// Weights become f32 in registers, once for all rows. a (rows, depth), sums (rows, kRowPanels, 16).
+template <int kRows>
+void rows_times_int8(const float* a, Index depth, const std::int8_t* panel, Index panel_stride, Index count,
+                     const float* scales, float* sums) {
   namespace hn = hwy::HWY_NAMESPACE;
   const hn::CappedTag<float, kPanel> floats;
   const hn::Rebind<std::int32_t, decltype(floats)> wide;
@@ -57,22 +58,35 @@ void row_times_int8(const float* a, Index depth, const std::int8_t* panel, Index
     const auto weight = [&](Index p, Index k, auto factor) {
       return hn::Mul(hn::ConvertTo(floats, hn::PromoteTo(wide, hn::LoadU(narrow, from[p] + k * kPanel))), factor);
     };
-    auto y0 = hn::Zero(floats), y1 = y0, y2 = y0, y3 = y0;
+    hn::Vec<decltype(floats)> y0[kRows], y1[kRows], y2[kRows], y3[kRows];
+    for (int row = 0; row < kRows; ++row) y0[row] = y1[row] = y2[row] = y3[row] = hn::Zero(floats);
     for (Index k = 0; k < depth; ++k) {
-      const auto x = hn::Set(floats, a[k]);
-      y0 = hn::MulAdd(x, weight(0, k, s0), y0);
-      y1 = hn::MulAdd(x, weight(1, k, s1), y1);
-      y2 = hn::MulAdd(x, weight(2, k, s2), y2);
-      y3 = hn::MulAdd(x, weight(3, k, s3), y3);
+      const auto w0 = weight(0, k, s0), w1 = weight(1, k, s1), w2 = weight(2, k, s2), w3 = weight(3, k, s3);
+      for (int row = 0; row < kRows; ++row) {
+        const auto x = hn::Set(floats, a[row * depth + k]);
+        y0[row] = hn::MulAdd(x, w0, y0[row]);
+        y1[row] = hn::MulAdd(x, w1, y1[row]);
+        y2[row] = hn::MulAdd(x, w2, y2[row]);
+        y3[row] = hn::MulAdd(x, w3, y3[row]);
+      }
     }
-    const auto store = [&](Index p, auto y) {
-      if (p <= last) hn::Store(y, floats, sums + p * kPanel + column);
-    };
-    store(0, y0);
-    store(1, y1);
-    store(2, y2);
-    store(3, y3);
+    for (int row = 0; row < kRows; ++row) {
+      float* const to = sums + row * kRowPanels * kPanel + column;
+      hn::Store(y0[row], floats, to);
+      hn::Store(y1[row], floats, to + kPanel);
+      hn::Store(y2[row], floats, to + 2 * kPanel);
+      hn::Store(y3[row], floats, to + 3 * kPanel);
+    }
   }
+}
+
+void row_times_int8(const float* a, Index depth, const std::int8_t* panel, Index panel_stride, Index count,
+                    const float* scales, float* sums) {
+  rows_times_int8<1>(a, depth, panel, panel_stride, count, scales, sums);
+}
+void three_rows_times_int8(const float* a, Index depth, const std::int8_t* panel, Index panel_stride, Index count,
+                           const float* scales, float* sums) {
+  rows_times_int8<3>(a, depth, panel, panel_stride, count, scales, sums);
 }
 
 }  // namespace HWY_NAMESPACE
@@ -87,6 +101,7 @@ namespace svnet::kernels {
 
 HWY_EXPORT(panel_from_int8);
 HWY_EXPORT(row_times_int8);
+HWY_EXPORT(three_rows_times_int8);
 
 namespace {
 
@@ -113,24 +128,31 @@ void multiply_int8(const TileKernels& kernels, Index count, Index rows, const fl
   }
 }
 
-/// A row with `count` panels from p on. With so few rows, weights that go through memory would take most of the time.
-void multiply_row(const float* a, const PackedInt8& weights, Index p, Index count, const PackedFinish& finish,
-                  float* c) {
+/// One or three rows with `count` panels from p on. With so few rows, weights that go through memory would take most of
+/// the time.
+void multiply_rows(Index rows, const float* a, const PackedInt8& weights, Index p, Index count,
+                   const PackedFinish& finish, float* c) {
   const auto [low, high] = range_of(finish.clamp);
-  const Index depth = weights.depth;
-  alignas(64) float sums[kRowPanels * kPanel];
-  HWY_DYNAMIC_DISPATCH(row_times_int8)
-  (a, depth, weights.panels.get() + p * depth * kPanel, depth * kPanel, count, weights.scales.get() + p * kPanel, sums);
-  const Index first = p * kPanel, columns = std::min(count * kPanel, weights.n - first);
-  for (Index i = 0; i < columns; ++i) {
-    float y = sums[i] + weights.bias.get()[first + i];
-    if (finish.residual != nullptr) y += finish.residual[first + i];
-    y = y < low ? low : y;
-    c[first + i] = y > high ? high : y;
-  }
+  const Index depth = weights.depth, n = weights.n;
+  alignas(64) float sums[3 * kRowPanels * kPanel];
+  const std::int8_t* const panel = weights.panels.get() + p * depth * kPanel;
+  const float* const scales = weights.scales.get() + p * kPanel;
+  if (rows == 3)
+    HWY_DYNAMIC_DISPATCH(three_rows_times_int8)(a, depth, panel, depth * kPanel, count, scales, sums);
+  else
+    HWY_DYNAMIC_DISPATCH(row_times_int8)(a, depth, panel, depth * kPanel, count, scales, sums);
+  const Index first = p * kPanel, columns = std::min(count * kPanel, n - first);
+  for (Index row = 0; row < rows; ++row)
+    for (Index i = 0; i < columns; ++i) {
+      const Index to = row * n + first + i;
+      float y = sums[row * kRowPanels * kPanel + i] + weights.bias.get()[first + i];
+      if (finish.residual != nullptr) y += finish.residual[to];
+      y = y < low ? low : y;
+      c[to] = y > high ? high : y;
+    }
 }
 
-constexpr Index kFewRows = 2;
+constexpr Index kFewRows = 6;
 
 }  // namespace
 
@@ -165,10 +187,12 @@ void int8_gemm(Parallel& parallel, Index rows, const float* a, const PackedInt8&
   if (rows <= kFewRows) {
     const Index all = panels(weights.n);
     return parallel.for_chunks(all, kRowPanels, [&](Index first, Index last, int) {
-      for (Index row = 0; row < rows; ++row) {
+      for (Index row = 0; row < rows;) {
+        const Index together = rows - row >= 3 ? 3 : 1;
         PackedFinish here = finish;
         if (here.residual != nullptr) here.residual += row * weights.n;
-        multiply_row(a + row * weights.depth, weights, first, last - first, here, c + row * weights.n);
+        multiply_rows(together, a + row * weights.depth, weights, first, last - first, here, c + row * weights.n);
+        row += together;
       }
     });
   }
@@ -187,6 +211,19 @@ void int8_gemm(Parallel& parallel, Index rows, const float* a, const PackedInt8&
 }
 
 Index int8_gemm_scratch(int threads) { return threads * kMostTilePanels * kBlock; }
+
+void copy_rows(Parallel& parallel, const PackedInt8& from, std::span<const Index> rows, PackedWeights& to) {
+  parallel.for_chunks(panels(from.n), 4, [&](Index first, Index last, int) {
+    for (Index p = first; p < last; ++p) {
+      float* target = to.panels.get() + p * to.panel_rows * kPanel;
+      for (const Index row : rows) {
+        HWY_DYNAMIC_DISPATCH(panel_from_int8)
+        (from.panels.get() + (p * from.depth + row) * kPanel, 1, from.scales.get() + p * kPanel, target);
+        target += kPanel;
+      }
+    }
+  });
+}
 
 }  // namespace svnet::kernels
 #endif

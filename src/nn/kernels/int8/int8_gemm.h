@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <span>
 
 #include "base/aligned.h"
 #include "base/parallel.h"
@@ -26,5 +27,8 @@ PackedInt8 packed_int8(Index depth, Index n, const float* w, const float* bias);
 void int8_gemm(Parallel& parallel, Index rows, const float* a, const PackedInt8& weights, const PackedFinish& finish,
                float* c, float* scratch);
 Index int8_gemm_scratch(int threads);
+
+/// As for PackedWeights (packed/copy_rows.h).
+void copy_rows(Parallel& parallel, const PackedInt8& from, std::span<const Index> rows, PackedWeights& to);
 
 }  // namespace svnet::kernels
