@@ -98,6 +98,18 @@ image, angles_deg, depth : as for score
 Raises svnet.Error as score does.
 )";
 
+constexpr const char* kGainDoc = R"(gain(self, image, angles_deg, depth=None)
+--
+
+What moving the camera from above to the best of the given poses is expected to gain, as semantic score (0 to 1), for
+objects of categories that the model has not seen.
+
+image, angles_deg, depth : as for score
+Returns a dict of floats: expected; low and high, between which four of five gains are; probability, that the gain is
+above 0.
+Raises svnet.Error as score does, and if the model does not know: models of the frame camera, and of earlier versions.
+)";
+
 /// Camera poses of one call, and their scores.
 struct ScoredPoses {
   std::vector<view::CameraPose> poses;
@@ -193,6 +205,19 @@ float margin_of(const LoadedModel& self, const py::object& image, const py::obje
   return all.scores[predict::best_view(all.scores)] - all.top_score;
 }
 
+py::dict gain_of(const LoadedModel& self, const py::object& image, const py::object& angles_deg,
+                 const py::object& depth) {
+  const ScoredPoses all = scored(self.predictor, "Model.gain", image, angles_deg, depth);
+  const predict::Gain gain = self.predictor.gain(static_cast<double>(all.scores[predict::best_view(all.scores)]),
+                                                 static_cast<double>(all.top_score));
+  py::dict result;
+  result["expected"] = gain.expected;
+  result["low"] = gain.low;
+  result["high"] = gain.high;
+  result["probability"] = gain.probability;
+  return result;
+}
+
 /// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a model, and methods would
 /// use memory that holds none.
 void refuse_new(PyHeapTypeObject* type) {
@@ -213,6 +238,7 @@ void bind_model(py::module_& module) {
       .def("best_views", best_views_of, kBestViewsDoc, py::arg("image"), py::arg("angles_deg"), py::arg("k"),
            py::arg("min_angle_deg") = 0, py::arg("depth") = py::none())
       .def("margin", margin_of, kMarginDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
+      .def("gain", gain_of, kGainDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
       .def_property_readonly(
           "uses_depth", [](const LoadedModel& self) { return self.predictor.uses_depth(); },
           "Whether the model was trained with the depth of top views, and needs it.")

@@ -26,8 +26,8 @@ using svnet::view::CameraPose;
 
 struct Arguments {
   std::filesystem::path model, image, depth_file, poses_file, plot;
-  bool json = false, has_candidates = false;  // has_candidates: --poses or --grid
-  Index best = 0;                             // 0: not given
+  bool json = false, gain = false, has_candidates = false;  // has_candidates: --poses or --grid
+  Index best = 0;                                           // 0: not given
   double min_angle_deg = 0;
   std::string exif{name_of(ExifOrientation::ignore)};
 };
@@ -74,7 +74,14 @@ class PredictCommand {
       io::write_png(
           plot, predict::prediction_picture(top, depth ? &*depth : nullptr, poses, scores, view ? &*view : nullptr));
     }
-    return {poses, scores, chosen, scores[chosen[0]] - top_score, familiarity};
+    std::optional<predict::Gain> gain;
+    if (a_.gain || predictor_.knows_gain())
+      gain = predictor_.gain(static_cast<double>(scores[chosen[0]]), static_cast<double>(top_score));
+    return {poses, scores, chosen, scores[chosen[0]] - top_score, gain, familiarity};
+  }
+
+  std::string text_of(const Prediction& prediction, const std::vector<std::size_t>& indices) const {
+    return table_text(prediction, indices) + (a_.gain ? "\n" + gain_text(*prediction.gain) : "");
   }
 
   void predict_image() const {
@@ -84,7 +91,7 @@ class PredictCommand {
       console_.line("--depth is ignored: the model was trained without depth");
     const Prediction prediction = predict({.name = {}, .image = a_.image, .depth = a_.depth_file}, a_.plot);
     if (io::is_standard_output(a_.plot)) return;
-    console_.result(a_.json ? prediction_json(prediction).dump(2) : table_text(prediction, printed(prediction)));
+    console_.result(a_.json ? prediction_json(prediction).dump(2) : text_of(prediction, printed(prediction)));
   }
 
   void predict_folder() const {
@@ -102,7 +109,7 @@ class PredictCommand {
         all.push_back(std::move(one));
       } else {
         console_.result(image.name + "\n" +
-                        table_text(prediction, a_.best > 0 ? prediction.best : std::vector{prediction.best[0]}));
+                        text_of(prediction, a_.best > 0 ? prediction.best : std::vector{prediction.best[0]}));
       }
       progress.update(&image - images.data() + 1);
     }
@@ -159,6 +166,9 @@ int main(int argc, char** argv) {
            "The least angle between two of the poses of --views, in degrees: 0 to 180, between viewing directions")
       .value_name("DEG")
       .shows_default();
+  command.add_flag("--gain", a.gain,
+                   "Also prints what moving the camera from the top view to the best pose is expected to gain, with an "
+                   "interval that holds four of five cases, for objects of categories that the model has not seen");
   command
       .add("--exif-orientation", a.exif,
            "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
@@ -167,7 +177,8 @@ int main(int argc, char** argv) {
   command.add_flag(
       "--json", a.json,
       "Prints JSON: best; best_views, of --views and --min-angle; margin_over_top, the best score minus that of the "
-      "top view; views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
+      "top view; views with theta_deg, phi_deg, score, best first; gain: expected, low, high, probability, if the "
+      "model knows; and top_view: how far its shape is "
       "from those that the model was trained on (distance, limit), and the share that it counts (trust). For a folder, "
       "images: a list of these with the name of the image");
   command

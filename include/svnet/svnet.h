@@ -130,10 +130,10 @@ SVNET_API svnet_status svnet_best_view(const svnet_model* model, const float* fe
 /* Finds up to k poses to take together, one after the other: the best first, then each time the one with the highest
  * score + s * min(a, 90) / 90, where a is the angle in degrees to the nearest pose that was found (between viewing
  * directions, along the great circle) and s the standard deviation of all scores; the first one in a tie. Two of them
- * are at least min_angle_deg degrees apart, in [0, 180]; up to 1e-4 degrees less count as enough. With the mean of their
- * features, objects are told apart better than with that of the k best poses. `indices` receives them in this order, and
- * `scores`, if not NULL, their scores; both have room for the smaller of k and count. `found` receives their number, at
- * least 1: less than k if no other pose differs enough. k and count must be at least 1. */
+ * are at least min_angle_deg degrees apart, in [0, 180]; up to 1e-4 degrees less count as enough. With the mean of
+ * their features, objects are told apart better than with that of the k best poses. `indices` receives them in this
+ * order, and `scores`, if not NULL, their scores; both have room for the smaller of k and count. `found` receives their
+ * number, at least 1: less than k if no other pose differs enough. k and count must be at least 1. */
 SVNET_API svnet_status svnet_best_views(const svnet_model* model, const float* features, const double* poses_deg,
                                         size_t count, size_t k, double min_angle_deg, size_t* indices, float* scores,
                                         size_t* found);
@@ -142,6 +142,19 @@ SVNET_API svnet_status svnet_best_views(const svnet_model* model, const float* f
  * (90, 90), which need not be one of them; negative if the top view is better than all. `count` must be at least 1. */
 SVNET_API svnet_status svnet_margin(const svnet_model* model, const float* features, const double* poses_deg,
                                     size_t count, float* margin);
+
+/* What moving the camera from (90, 90) to the best pose is expected to gain, as semantic score (0 to 1), for objects of
+ * categories that the model has not seen. */
+typedef struct svnet_gain_estimate {
+  double expected;
+  double low, high;   /* four of five gains are between these */
+  double probability; /* that the gain is above 0 */
+} svnet_gain_estimate;
+
+/* `gain` receives the estimate for the best of `count` poses; count must be at least 1. A model that does not know is
+ * SVNET_INVALID_ARGUMENT: models of the frame camera, and of earlier versions. */
+SVNET_API svnet_status svnet_gain(const svnet_model* model, const float* features, const double* poses_deg,
+                                  size_t count, svnet_gain_estimate* gain);
 
 /* Writes the poses of a grid, sorted by elevation, then azimuth: theta_steps azimuths (1 to 3600), evenly from 0, at
  * each of phi_steps elevations (1 to 1000), evenly from lowest_phi_deg to highest_phi_deg, both included; with one step

@@ -168,6 +168,13 @@ class ViewModel {
     return result;
   }
 
+  // What moving to the best of the poses is expected to gain: svnet_gain.
+  svnet_gain_estimate gain(const std::vector<float>& features, const std::vector<CameraPose>& poses) const {
+    svnet_gain_estimate result{};
+    detail::check(svnet_gain(model_.get(), numbers(features), angles(poses.data()), poses.size(), &result));
+    return result;
+  }
+
  private:
   friend class ViewContext;
 

@@ -87,15 +87,34 @@ void write_best_views(const char* function, const svnet_model* model, const floa
   }
 }
 
-void write_margin(const char* function, const svnet_model* model, const float* features, const Poses& poses,
-                  float* margin, CallBuffers& buffers) {
-  check_given(margin, function, "margin");
+namespace {
+
+/// The scores of the best of the poses, and of the top view.
+std::pair<float, float> best_and_top(const char* function, const svnet_model* model, const float* features,
+                                     const Poses& poses, CallBuffers& buffers) {
   check_some(function, poses);
   score(function, model, features, poses, buffers);
   const float best = buffers.scores[predict::best_view(buffers.scores)];
   const double top[] = {view::kTopView.theta_deg, view::kTopView.phi_deg};
   score(function, model, features, {top, 1}, buffers);
-  *margin = best - buffers.scores[0];
+  return {best, buffers.scores[0]};
+}
+
+}  // namespace
+
+void write_margin(const char* function, const svnet_model* model, const float* features, const Poses& poses,
+                  float* margin, CallBuffers& buffers) {
+  check_given(margin, function, "margin");
+  const auto [best, top] = best_and_top(function, model, features, poses, buffers);
+  *margin = best - top;
+}
+
+void write_gain(const char* function, const svnet_model* model, const float* features, const Poses& poses,
+                svnet_gain_estimate* gain, CallBuffers& buffers) {
+  check_given(gain, function, "gain");
+  const auto [best, top] = best_and_top(function, model, features, poses, buffers);
+  const predict::Gain expected = model->predictor.gain(static_cast<double>(best), static_cast<double>(top));
+  *gain = {expected.expected, expected.low, expected.high, expected.probability};
 }
 
 }  // namespace svnet

@@ -59,5 +59,7 @@ void write_best_views(const char* function, const svnet_model* model, const floa
                       CallBuffers& buffers);
 void write_margin(const char* function, const svnet_model* model, const float* features, const Poses& poses,
                   float* margin, CallBuffers& buffers);
+void write_gain(const char* function, const svnet_model* model, const float* features, const Poses& poses,
+                svnet_gain_estimate* gain, CallBuffers& buffers);
 
 }  // namespace svnet

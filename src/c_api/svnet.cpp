@@ -112,6 +112,14 @@ svnet_status svnet_best_views(const svnet_model* model, const float* features, c
   });
 }
 
+svnet_status svnet_gain(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
+                        svnet_gain_estimate* gain) {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
+    CallBuffers buffers = single_call();
+    write_gain("svnet_gain", model, features, {poses_deg, count}, gain, buffers);
+  });
+}
+
 svnet_status svnet_margin(const svnet_model* model, const float* features, const double* poses_deg, size_t count,
                           float* margin) {
   return computed(SVNET_INVALID_ARGUMENT, [&] {

@@ -30,6 +30,14 @@ struct HeldOutResults {
   std::vector<Value> values{};
 };
 
+/// What moving the camera from above to the best pose gained on categories that were left out of the fit, as semantic
+/// score: gain = intercept + slope · margin + residual, where the margin is the difference of the predicted centred
+/// scores. No residuals: not known.
+struct GainCalibration {
+  double intercept = 0, slope = 0;
+  std::vector<double> residuals{};  ///< quantiles at 0, 1/n, …, 1, ascending
+};
+
 /// A trained SV-net: it scores camera poses for a top image.
 struct Model {
   frame::FrameChoice frame = frame::FrameChoice::camera;
@@ -37,6 +45,8 @@ struct Model {
   frame::DepthChoice depth = frame::DepthChoice::none;
   /// Of the frames other than `camera`: what top views the head was fitted to.
   frame::SeenShapes seen{};
+  /// Of the frames other than `camera`.
+  GainCalibration gain{};
   // The backbone, of all frames but `axis`. In frames with turns its output are the values of one turn: it ends in the
   // layers of models/turned_backbone.h.
   std::string backbone;                 // "mobilenet"

@@ -21,6 +21,7 @@ Predictor::Predictor(const Model& model, const InferenceOptions& options)
       preprocessing_(model.preprocessing),
       symmetries_(model.symmetries),
       depth_(model.depth),
+      gain_(model.gain),
       head_(model, inference_options(model, options)) {
   if (frame::has_backbone(model.frame))
     backbone_.emplace(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),

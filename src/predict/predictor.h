@@ -8,6 +8,7 @@
 #include "image/image.h"
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
+#include "predict/gain.h"
 #include "predict/score_head.h"
 #include "predict/view_choice.h"
 #include "view/camera_pose.h"
@@ -53,6 +54,13 @@ class Predictor {
   /// ScoreHead::familiarity of features that embed has returned.
   Familiarity familiarity(const Tensor& features) const { return head_.familiarity(features); }
 
+  /// expected_gain (gain.h) from predicted scores of the best pose and the top view.
+  Gain gain(double best_score, double top_score) const {
+    return expected_gain(gain_, centred_margin(best_score, top_score));
+  }
+  /// Whether gain() knows; otherwise it throws.
+  bool knows_gain() const { return !gain_.residuals.empty(); }
+
   /// ScoreHead::scores of features that embed has returned.
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
   void scores(std::span<const float> features, std::span<const view::CameraPose> poses, std::span<float> scores,
@@ -68,6 +76,7 @@ class Predictor {
   models::Preprocessing preprocessing_;
   int symmetries_;
   frame::DepthChoice depth_;
+  GainCalibration gain_;
   std::optional<Inference> backbone_;  // of all frames but `axis`
   ScoreHead head_;
 };

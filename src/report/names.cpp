@@ -14,6 +14,9 @@ constexpr SelectorWords kSelectorWords[] = {
     {"broadside", "broadside rule", "the fixed rule broadside (φ 45° across the object's axis)"},
     {"phi_map", "elevation rule", "the fixed rule phi_map (the best elevation of the training scores)"},
     {"svnet", "SV-net", "SV-net"},
+    {"move_25", "a quarter moved", "SV-net where it expects most of it, in a quarter of the poses"},
+    {"move_50", "half moved", "SV-net where it expects most of it, in half of the poses"},
+    {"move_75", "three quarters moved", "SV-net where it expects most of it, in three quarters of the poses"},
     {"opt_ind", "best individual", "the best view by individual score"},
     {"opt_glob", "best global", "the best view by global score"},
 };

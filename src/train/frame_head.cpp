@@ -51,12 +51,15 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
     standard_errors.push_back(scores.standard_error[i]);
     examples.pose.push_back(static_cast<std::int32_t>(view.pose));
     examples.category.push_back(static_cast<std::int32_t>(view.category));
+    examples.top.push_back(view.top ? 1 : 0);
   }
   examples.weight = score_weights(examples.y, standard_errors, examples.pose);
 
   RidgeOptions options{.seed = seed};
   for (const frame::InputGroup group : frame::input_groups(spec)) options.small_penalty.push_back(!is_of_shape(group));
-  return {fit_head(examples, options, head), spec, shapes_of(dataset, features, categories, spec)};
+  FrameHead fitted{fit_head(examples, options, head), spec, shapes_of(dataset, features, categories, spec)};
+  fitted.gain = gain_of_left_out(examples, options, fitted.fit);
+  return fitted;
 }
 
 std::vector<double> predictions(const FrameHead& head, const ViewDataset& dataset, std::span<const float> features) {
@@ -73,12 +76,17 @@ std::vector<double> predictions(const FrameHead& head, const ViewDataset& datase
   return predictions(head.fit, views);
 }
 
+void set_frame_head(Model& model, const FrameHead& head) {
+  set_head(model, head.fit);
+  model.seen = head.seen;
+  model.gain = head.gain;
+}
+
 Model model_of(const FrameHead& head) {
   Model model;
   model.frame = head.spec.frame;
   model.depth = head.spec.depth;
-  set_head(model, head.fit);
-  model.seen = head.seen;
+  set_frame_head(model, head);
   return model;
 }
 

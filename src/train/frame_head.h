@@ -16,6 +16,7 @@ struct FrameHead {
   HeadFit fit;
   frame::FrameSpec spec;
   frame::SeenShapes seen;  ///< of the top views of the training categories
+  GainCalibration gain{};
 };
 
 /// Fits the scores of the views of `categories` that have one: each minus the mean of its pose, weighted as
@@ -27,6 +28,9 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
 
 /// The predicted centred score of every view of the dataset.
 std::vector<double> predictions(const FrameHead& head, const ViewDataset& dataset, std::span<const float> features);
+
+/// Puts the head, what it has seen and what it gains into the model.
+void set_frame_head(Model& model, const FrameHead& head);
 
 /// The head as a model without a backbone. Its fingerprint stays empty.
 Model model_of(const FrameHead& head);

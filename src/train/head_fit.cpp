@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "train/gain_fit.h"
 #include "train/pose_examples.h"
 
 namespace svnet::train {
@@ -65,6 +66,7 @@ PoseExamples part_of(const PoseExamples& e, const std::map<std::int32_t, std::si
     part.weight.push_back(e.weight[i]);
     part.pose.push_back(e.pose[i]);
     part.category.push_back(e.category[i]);
+    if (!e.top.empty()) part.top.push_back(e.top[i]);
   }
   return part;
 }
@@ -99,7 +101,29 @@ HeadChoice best_of(const std::vector<TriedHead>& tried) {
   return std::max_element(tried.begin(), tried.end(), lower)->kind;
 }
 
+HeadFit fit_of_kind(const PoseExamples& examples, const RidgeOptions& options, HeadChoice kind) {
+  HeadFit head{.ridge = fit_ridge(examples, options), .ridge_share = ridge_share(kind)};
+  if (kind != HeadChoice::ridge) head.networks = fit_networks(examples, options.seed);
+  return head;
+}
+
 }  // namespace
+
+GainCalibration gain_of_left_out(const PoseExamples& examples, const RidgeOptions& options, const HeadFit& head) {
+  const auto folds = folds_of_categories(examples, options.seed);
+  if (examples.top.empty() || folds.size() < 3) return {};
+  const HeadChoice kind = head.ridge_share == 1   ? HeadChoice::ridge
+                          : head.ridge_share == 0 ? HeadChoice::network
+                                                  : HeadChoice::both;
+  std::vector<PoseGain> gains;
+  for (std::size_t fold = 0; fold < std::min(kRidgeFolds, folds.size()); ++fold) {
+    const PoseExamples left_out = part_of(examples, folds, fold, true);
+    const HeadFit rest = fit_of_kind(part_of(examples, folds, fold, false), options, kind);
+    const std::vector<PoseGain> of_fold = gains_of(left_out, predictions(rest, left_out));
+    gains.insert(gains.end(), of_fold.begin(), of_fold.end());
+  }
+  return fitted_gain(gains);
+}
 
 HeadFit fit_head(const PoseExamples& examples, const RidgeOptions& options, HeadChoice choice) {
   HeadFit head{.ridge = fit_ridge(examples, options)};

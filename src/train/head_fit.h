@@ -32,6 +32,11 @@ inline constexpr std::size_t kNetworks = 4;
 /// within poses is fitted to all. Throws Error as fit_ridge does.
 HeadFit fit_head(const PoseExamples& examples, const RidgeOptions& options, HeadChoice choice);
 
+/// What moving from the top view to the best predicted view gains, in folds over categories as fit_head's, by heads of
+/// the same kind fitted to the others. Not known if the examples do not say which views are top views, or for fewer
+/// than three categories.
+GainCalibration gain_of_left_out(const PoseExamples& examples, const RidgeOptions& options, const HeadFit& head);
+
 /// The predicted centred score of each example. Only x and inputs of the examples count.
 std::vector<double> predictions(const HeadFit& head, const PoseExamples& examples);
 

@@ -16,6 +16,7 @@ struct PoseExamples {
   std::vector<double> weight{};          ///< (examples) > 0: how much is known of y
   std::vector<std::int32_t> pose{};      ///< (examples) examples of a pose are neighbours
   std::vector<std::int32_t> category{};  ///< (examples)
+  std::vector<std::uint8_t> top{};       ///< (examples) whether it is the top view; empty: not known
 };
 
 /// [begin, end) of the examples of one pose.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -27,6 +28,12 @@ const SelectorKind kSelectors[] = {
      [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().individual, views); }},
     {"svnet", "the view with the best score that SV-net predicts", false, true, true,
      [](const SelectorInputs& in, Index views) { return view_sets(in.dataset, in.predicted, views); }},
+    {"move_25", "SV-net's view where it expects most of it, in 25 % of the poses; else the top view", false, false,
+     false, [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.25); }},
+    {"move_50", "the same in 50 % of the poses", false, false, false,
+     [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.5); }},
+    {"move_75", "the same in 75 % of the poses", false, false, false,
+     [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.75); }},
 };
 
 bool is_default(const SelectorKind& kind, Split split) {
@@ -148,6 +155,23 @@ std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const
   return views;
 }
 
+std::vector<std::int32_t> moved_views(const ViewDataset& dataset, std::span<const double> scores, double share) {
+  const std::vector<std::int32_t> best = best_views(dataset, scores);
+  std::vector<std::int32_t> chosen = top_views(dataset);
+  std::vector<std::size_t> order(dataset.poses.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto margin = [&](std::size_t pose) {
+    const double of_top = scores[static_cast<std::size_t>(chosen[pose])];
+    return std::isnan(of_top) ? 0.0 : scores[static_cast<std::size_t>(best[pose])] - of_top;
+  };
+  std::vector<double> margins;
+  for (std::size_t pose = 0; pose < order.size(); ++pose) margins.push_back(margin(pose));
+  std::ranges::stable_sort(order, std::ranges::greater(), [&](std::size_t pose) { return margins[pose]; });
+  order.resize(static_cast<std::size_t>(std::lround(share * static_cast<double>(order.size()))));
+  for (const std::size_t pose : order) chosen[pose] = best[pose];
+  return chosen;
+}
+
 std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const double> scores, Index count) {
   std::vector<std::int32_t> views = best_views(dataset, scores, count);
   std::vector<view::CameraPose> poses;
@@ -161,7 +185,8 @@ std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const 
       poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
     }
     const std::size_t found = choose_view_set(
-        poses, [&](std::size_t i) { return scores[static_cast<std::size_t>(pose.first_view) + i]; }, {}, chosen, nearest);
+        poses, [&](std::size_t i) { return scores[static_cast<std::size_t>(pose.first_view) + i]; }, {}, chosen,
+        nearest);
     for (std::size_t i = 0; i < chosen.size() && found > 0; ++i)
       views[p * chosen.size() + i] = static_cast<std::int32_t>(pose.first_view + static_cast<Index>(chosen[i % found]));
   }

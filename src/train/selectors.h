@@ -74,6 +74,10 @@ std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<co
 /// pose have a score they are repeated in turn; the top view if none has.
 std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores, Index count = 1);
 
+/// The best view of the `share` of poses in which its score is the most above that of the top view, and the top view of
+/// the others.
+std::vector<std::int32_t> moved_views(const ViewDataset& dataset, std::span<const double> scores, double share);
+
 /// `count` views of each pose to take together, each judged beside those already chosen (view/view_set.h), otherwise as
 /// best_views. For one view they are the same.
 std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const double> scores, Index count);

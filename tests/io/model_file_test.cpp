@@ -203,11 +203,17 @@ TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") 
   const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
   Model model = axis_model(frame::DepthChoice::none);
   model.seen = {.mean = {1, -2, 0.1}, .deviation = {1, 0, 3}, .limit = 2.5};
+  model.gain = {0.25, 0.5, {-0.1, 0, 0.2}};
   write_model(path, model);
   const Model back = read_model(path);
   CHECK(back.seen.mean == model.seen.mean);
   CHECK(back.seen.deviation == model.seen.deviation);
   CHECK(back.seen.limit == 2.5);
+  CHECK(back.gain.intercept == 0.25);
+  CHECK(back.gain.slope == 0.5);
+  CHECK(back.gain.residuals == model.gain.residuals);
+  write_changed(path, bad, [](auto& d) { d["frame"]["gain"]["residuals"] = {0.1, -0.1}; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: the residuals in gain are not ascending quantiles");
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["mean"] = {1, 2}; });
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 2 means and 3 deviations, expected 3");
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["limit"] = -1; });

@@ -1,5 +1,6 @@
 #include "predict/prediction_text.h"
 
+#include <cstdio>
 #include <iomanip>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -35,11 +36,24 @@ nlohmann::ordered_json prediction_json(const Prediction& prediction) {
   const predict::Familiarity& top_view = prediction.familiarity;
   const nlohmann::ordered_json top{
       {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
-  return {{"best", views.front()},
-          {"best_views", views_json(prediction, prediction.best)},
-          {"margin_over_top", prediction.margin_over_top},
-          {"views", views},
-          {"top_view", top}};
+  nlohmann::ordered_json json{{"best", views.front()},
+                              {"best_views", views_json(prediction, prediction.best)},
+                              {"margin_over_top", prediction.margin_over_top},
+                              {"views", views},
+                              {"top_view", top}};
+  if (const auto& gain = prediction.gain)
+    json["gain"] = {
+        {"expected", gain->expected}, {"low", gain->low}, {"high", gain->high}, {"probability", gain->probability}};
+  return json;
+}
+
+std::string gain_text(const predict::Gain& gain) {
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "moving from the top view to the best pose: score %+.3f expected, %+.3f to %+.3f in 80 %% of cases, "
+                "above 0 in %.0f %%",
+                gain.expected, gain.low, gain.high, 100 * gain.probability);
+  return text;
 }
 
 }  // namespace svnet

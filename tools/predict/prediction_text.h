@@ -1,5 +1,6 @@
 #pragma once
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,15 @@ struct Prediction {
   std::vector<float> scores;
   std::vector<std::size_t> best;  // the best views that differ enough
   float margin_over_top;
+  std::optional<predict::Gain> gain;  // none: the model does not know
   predict::Familiarity familiarity;
 };
 
 /// A line per pose of `indices`, below a line of titles.
 std::string table_text(const Prediction& prediction, const std::vector<std::size_t>& indices);
+
+/// What moving the camera gains, in a sentence. Requires prediction.gain.
+std::string gain_text(const predict::Gain& gain);
 
 /// The members that --json prints.
 nlohmann::ordered_json prediction_json(const Prediction& prediction);

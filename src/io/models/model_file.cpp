@@ -74,6 +74,11 @@ void check_camera_model(const Model& model) {
         " features and the angles, or gives more than one score");
 }
 
+void check_gain(const GainCalibration& gain) {
+  check(gain.residuals.empty() || (gain.residuals.size() >= 2 && std::ranges::is_sorted(gain.residuals)),
+        "frame: the residuals in gain are not ascending quantiles");
+}
+
 void check_seen(const Model& model) {
   const frame::SeenShapes& seen = model.seen;
   if (seen.mean.empty() && seen.deviation.empty()) return;
@@ -99,11 +104,14 @@ void check_frame_model(const Model& model) {
             head.node(head.output()).shape == Shape{1},
         "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
   check_seen(model);
+  check_gain(model.gain);
 }
 
 json frame_to_json(const Model& model) {
   json to = {{"kind", name_of(model.frame)}, {"depth", name_of(model.depth)}};
   const frame::SeenShapes& seen = model.seen;
+  if (const GainCalibration& gain = model.gain; !gain.residuals.empty())
+    to["gain"] = {{"intercept", gain.intercept}, {"slope", gain.slope}, {"residuals", gain.residuals}};
   if (!seen.mean.empty()) to["seen"] = {{"mean", seen.mean}, {"deviation", seen.deviation}, {"limit", seen.limit}};
   return to;
 }
@@ -114,6 +122,13 @@ frame::SeenShapes seen_from_json(const json& frame) {
   const json& seen = frame.at("seen");
   return {seen.at("mean").get<std::vector<double>>(), seen.at("deviation").get<std::vector<double>>(),
           seen.at("limit").get<double>()};
+}
+
+GainCalibration gain_from_json(const json& frame) {
+  if (!frame.contains("gain")) return {};
+  const json& gain = frame.at("gain");
+  return {gain.at("intercept").get<double>(), gain.at("slope").get<double>(),
+          gain.at("residuals").get<std::vector<double>>()};
 }
 
 /// The description of what the head sees.
@@ -182,13 +197,14 @@ Model model_of(const TensorFile& file) {
       model.frame = choice_from_json<FrameChoice>(frame, "kind");
       model.depth = choice_from_json<frame::DepthChoice>(frame, "depth");
       model.seen = seen_from_json(frame);
+      model.gain = gain_from_json(frame);
     });
   }
   reading(file, [&] {
     read_origin(file.description(), model);
     if (file.description().contains("precision"))
-      model.precision = enum_from_name<StoredPrecision>("precision",
-                                                        file.description().at("precision").get<std::string>());
+      model.precision =
+          enum_from_name<StoredPrecision>("precision", file.description().at("precision").get<std::string>());
   });
   const bool is_camera = model.frame == FrameChoice::camera, has_backbone = frame::has_backbone(model.frame);
   const json head = file.get<json>("head"), backbone = has_backbone ? file.get<json>("backbone") : json(),

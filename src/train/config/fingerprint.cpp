@@ -17,7 +17,7 @@ const char* method_of(Stage stage) {
     case Stage::scores:
       return "scores 2";
     case Stage::model:
-      return "model 4";
+      return "model 5";
     case Stage::evaluation:
       return "evaluation 1";
   }

@@ -46,6 +46,7 @@ Run with_uniform_views(const Run& run) {
 /// What a fold's model predicts, and the views that each selector chooses with it, for all poses.
 struct FoldChoices {
   std::vector<double> predicted;
+  GainCalibration gain;
   std::vector<Selector> selectors;
 };
 
@@ -53,7 +54,7 @@ FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& t
                        const std::vector<const SelectorKind*>& kinds) {
   const Scores training_scores = scores_stage(fold, features);
   const Model model = model_stage(fold, features, training_scores);
-  FoldChoices choices{.predicted = predicted_scores(fold, features, model), .selectors = {}};
+  FoldChoices choices{.predicted = predicted_scores(fold, features, model), .gain = model.gain, .selectors = {}};
   const SelectorInputs inputs{
       .dataset = fold.dataset,
       .scores =
@@ -182,6 +183,7 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
     within_poses.push_back(within_pose(run.dataset, choices.predicted, target, fold.held_out));
     result.folds.push_back({folds[f], within_poses.back()});
     predicted.add(fold, choices.predicted);
+    add_gains(run.dataset, choices.predicted, target, fold.held_out, choices.gain, result.gains);
     if (problems == FoldProblems::own_categories)
       sets.push_back({problems_of(run, fold.held_out), choices.selectors});
     else

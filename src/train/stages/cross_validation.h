@@ -7,6 +7,7 @@
 #include "train/evaluation.h"
 #include "train/run.h"
 #include "train/stages/features.h"
+#include "train/stages/gain_check.h"
 #include "train/within_pose.h"
 
 namespace svnet::train {
@@ -42,7 +43,8 @@ struct CrossValidation {
   EvaluationTable table;   ///< with the views that were chosen without their category
   WithinPose within_pose;  ///< over the held-out poses of all folds
   std::vector<FoldResult> folds;
-  std::vector<Selector> choices;  ///< the views of the table's selectors; empty with FoldProblems::own_categories
+  std::vector<CheckedGain> gains;  ///< of held-out poses; empty if the models do not say
+  std::vector<Selector> choices;   ///< the views of the table's selectors; empty with FoldProblems::own_categories
   /// Of every view, the score that the model of its category's fold predicts; the mean over folds if several hold the
   /// category out, NaN if none does.
   std::vector<double> predicted{};

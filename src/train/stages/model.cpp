@@ -170,8 +170,7 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
   if (!head.networks.empty())
     run.say(joined("SV-net: ", head.networks.size(), " networks",
                    head.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
-  set_head(model, head);
-  model.seen = fitted.seen;
+  set_frame_head(model, fitted);
   model.input_fingerprint = fingerprint;
   return model;
 }
