@@ -35,12 +35,12 @@ frame::SeenShapes shapes_of(const ViewDataset& dataset, std::span<const float> f
 
 FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> features, const Scores& scores,
                          const std::vector<bool>& categories, Target target, const frame::FrameSpec& spec,
-                         std::uint64_t seed, HeadChoice head) {
+                         std::uint64_t seed, HeadChoice head, const Scores* gains) {
   check_rows(dataset, scores.paths, "scores");
   check(features.size() == dataset.poses.size() * static_cast<std::size_t>(frame::feature_count(spec)), "[head] ",
         features.size(), " features do not belong to ", dataset.poses.size(), " top views");
   const std::vector<double>& targets = target_scores(scores, target);
-  std::vector<double> standard_errors;
+  std::vector<double> standard_errors, gained;
   PoseExamples examples{.inputs = frame::input_count(spec)};
   for (std::size_t i = 0; i < dataset.views.size(); ++i) {
     const View& view = dataset.views[i];
@@ -52,13 +52,14 @@ FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> feat
     examples.pose.push_back(static_cast<std::int32_t>(view.pose));
     examples.category.push_back(static_cast<std::int32_t>(view.category));
     examples.top.push_back(view.top ? 1 : 0);
+    if (gains != nullptr) gained.push_back(target_scores(*gains, target)[i]);
   }
   examples.weight = score_weights(examples.y, standard_errors, examples.pose);
 
   RidgeOptions options{.seed = seed};
   for (const frame::InputGroup group : frame::input_groups(spec)) options.small_penalty.push_back(!is_of_shape(group));
   FrameHead fitted{fit_head(examples, options, head), spec, shapes_of(dataset, features, categories, spec)};
-  fitted.gain = gain_of_left_out(examples, options, fitted.fit);
+  if (gains != nullptr) fitted.gain = gain_of_left_out(examples, gained, options, fitted.fit);
   return fitted;
 }
 

@@ -21,10 +21,11 @@ struct FrameHead {
 
 /// Fits the scores of the views of `categories` that have one: each minus the mean of its pose, weighted as
 /// score_weights (view_targets.h) says. `features` are those of frame/frame_inputs.h of the dataset's poses, (poses,
-/// D). Throws Error as fit_ridge does.
+/// D). `gains`: the scores whose differences are gains of moving the camera; nullptr: gains stay unknown. Throws Error
+/// as fit_ridge does.
 FrameHead fit_frame_head(const ViewDataset& dataset, std::span<const float> features, const Scores& scores,
                          const std::vector<bool>& categories, Target target, const frame::FrameSpec& spec,
-                         std::uint64_t seed, HeadChoice head = HeadChoice::ridge);
+                         std::uint64_t seed, HeadChoice head = HeadChoice::ridge, const Scores* gains = nullptr);
 
 /// The predicted centred score of every view of the dataset.
 std::vector<double> predictions(const FrameHead& head, const ViewDataset& dataset, std::span<const float> features);

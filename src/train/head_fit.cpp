@@ -109,17 +109,20 @@ HeadFit fit_of_kind(const PoseExamples& examples, const RidgeOptions& options, H
 
 }  // namespace
 
-GainCalibration gain_of_left_out(const PoseExamples& examples, const RidgeOptions& options, const HeadFit& head) {
+GainCalibration gain_of_left_out(const PoseExamples& examples, const std::vector<double>& scores,
+                                 const RidgeOptions& options, const HeadFit& head) {
   const auto folds = folds_of_categories(examples, options.seed);
   if (examples.top.empty() || folds.size() < 3) return {};
   const HeadChoice kind = head.ridge_share == 1   ? HeadChoice::ridge
                           : head.ridge_share == 0 ? HeadChoice::network
                                                   : HeadChoice::both;
+  PoseExamples measured = examples;
+  measured.y = scores;
   std::vector<PoseGain> gains;
   for (std::size_t fold = 0; fold < std::min(kRidgeFolds, folds.size()); ++fold) {
     const PoseExamples left_out = part_of(examples, folds, fold, true);
     const HeadFit rest = fit_of_kind(part_of(examples, folds, fold, false), options, kind);
-    const std::vector<PoseGain> of_fold = gains_of(left_out, predictions(rest, left_out));
+    const std::vector<PoseGain> of_fold = gains_of(part_of(measured, folds, fold, true), predictions(rest, left_out));
     gains.insert(gains.end(), of_fold.begin(), of_fold.end());
   }
   return fitted_gain(gains);

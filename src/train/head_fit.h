@@ -34,8 +34,9 @@ HeadFit fit_head(const PoseExamples& examples, const RidgeOptions& options, Head
 
 /// What moving from the top view to the best predicted view gains, in folds over categories as fit_head's, by heads of
 /// the same kind fitted to the others. Not known if the examples do not say which views are top views, or for fewer
-/// than three categories.
-GainCalibration gain_of_left_out(const PoseExamples& examples, const RidgeOptions& options, const HeadFit& head);
+/// than three categories. `scores`: of each example, whose differences are the gains.
+GainCalibration gain_of_left_out(const PoseExamples& examples, const std::vector<double>& scores,
+                                 const RidgeOptions& options, const HeadFit& head);
 
 /// The predicted centred score of each example. Only x and inputs of the examples count.
 std::vector<double> predictions(const HeadFit& head, const PoseExamples& examples);

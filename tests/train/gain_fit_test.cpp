@@ -45,7 +45,7 @@ TEST_CASE("gains are those of the best predicted view over the top view") {
 TEST_CASE("a gain that the margin tells is expected, one that it does not tell is the mean") {
   const PoseExamples e = line_examples(0.001);
   const HeadFit head = fit_head(e, {.small_penalty = {true}}, HeadChoice::ridge);
-  const GainCalibration gain = gain_of_left_out(e, {.small_penalty = {true}}, head);
+  const GainCalibration gain = gain_of_left_out(e, e.y, {.small_penalty = {true}}, head);
   CHECK(gain.slope == Approx(1).margin(0.02));
   CHECK(gain.intercept == Approx(0).margin(0.01));
   CHECK(gain.residuals.back() < 0.02);
@@ -61,7 +61,7 @@ TEST_CASE("a gain that the margin tells is expected, one that it does not tell i
 TEST_CASE("intervals hold what they say for other poses, and probabilities are shares") {
   PoseExamples e = line_examples(0.1);
   const HeadFit head = fit_head(e, {.small_penalty = {true}}, HeadChoice::ridge);
-  const GainCalibration calibration = gain_of_left_out(e, {.small_penalty = {true}}, head);
+  const GainCalibration calibration = gain_of_left_out(e, e.y, {.small_penalty = {true}}, head);
   REQUIRE(calibration.residuals.size() > 2);
   std::vector<CheckedGain> gains;
   for (const PoseGain& g : gains_of(e, predictions(head, e)))
@@ -80,7 +80,7 @@ TEST_CASE("gains are not known without top views or with two categories") {
   PoseExamples e = line_examples(0.1);
   const HeadFit head = fit_head(e, {.small_penalty = {true}}, HeadChoice::ridge);
   for (auto& category : e.category) category %= 2;
-  CHECK(gain_of_left_out(e, {.small_penalty = {true}}, head).residuals.empty());
+  CHECK(gain_of_left_out(e, e.y, {.small_penalty = {true}}, head).residuals.empty());
   e.top.clear();
-  CHECK(gain_of_left_out(e, {.small_penalty = {true}}, head).residuals.empty());
+  CHECK(gain_of_left_out(e, e.y, {.small_penalty = {true}}, head).residuals.empty());
 }

@@ -36,13 +36,6 @@ Run run_of_fold(const Run& run, const Fold& fold, std::size_t number) {
   return part;
 }
 
-/// The run without rounds of on-policy scores: true scores of views do not depend on a model.
-Run with_uniform_views(const Run& run) {
-  Run uniform = run;
-  uniform.config.scores.rounds = 0;
-  return uniform;
-}
-
 /// What a fold's model predicts, and the views that each selector chooses with it, for all poses.
 struct FoldChoices {
   std::vector<double> predicted;
@@ -166,7 +159,7 @@ std::vector<Fold> each_choice_of(const ViewDataset& dataset, Index size) {
 CrossValidation cross_validate(const Run& run, FeaturesStage& features, const std::vector<Fold>& folds,
                                FoldProblems problems) {
   check(run.config.dataset.held_out.empty(), "[folds] the configuration holds categories out of every fold");
-  const Scores scores = scores_stage(with_uniform_views(run), features);
+  const Scores scores = uniform_scores_stage(run, features);
   const auto& target = target_scores(scores, run.config.sv_net.target);
   const auto& named = run.config.evaluation.selectors.empty() ? kSelectorsOfTable : run.config.evaluation.selectors;
   const auto kinds = selectors_of_table(named, Split::held_out);

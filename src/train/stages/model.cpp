@@ -13,6 +13,7 @@
 #include "train/frame_head.h"
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
+#include "train/stages/scores.h"
 #include "train/stages/top_features.h"
 #include "train/stages/trained_network.h"
 #include "train/stages/wanted_scores.h"
@@ -159,9 +160,13 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
         features.turned_components(sv_net.backbone, sv_net.layer, run.training_categories());
     set_turned_backbone(model, features.backbone(sv_net.backbone, sv_net.layer).backbone, components);
   }
-  const FrameHead fitted =
-      fit_frame_head(run.dataset, top_features(run, features, model), scores, run.training_categories(), sv_net.target,
-                     frame_spec(model), run.seed(), sv_net.head);
+  // Gains are differences of scores of uniform views. The models of rounds before the last need none.
+  const bool has_rounds = config.scores.rounds > 0;
+  std::optional<Scores> uniform;
+  if (has_rounds && std::filesystem::exists(run.folder / "scores.h5")) uniform = uniform_scores_stage(run, features);
+  const FrameHead fitted = fit_frame_head(run.dataset, top_features(run, features, model), scores,
+                                          run.training_categories(), sv_net.target, frame_spec(model), run.seed(),
+                                          sv_net.head, has_rounds ? (uniform ? &*uniform : nullptr) : &scores);
   const HeadFit& head = fitted.fit;
   run.say(joined("SV-net: ridge regression of ", head.ridge.weights.size(), " inputs, penalty ", head.ridge.penalty,
                  ", explains ", 100 * (1 - head.ridge.error),

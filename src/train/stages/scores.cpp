@@ -242,6 +242,12 @@ Scores scores_stage(const Run& run, FeaturesStage& features, const RoundPredicto
   return scores;
 }
 
+Scores uniform_scores_stage(const Run& run, FeaturesStage& features) {
+  Run uniform = run;
+  uniform.config.scores.rounds = 0;
+  return scores_stage(uniform, features);
+}
+
 Scores scores_stage(const Run& run, FeaturesStage& features) {
   return scores_stage(run, features, sv_net_round_predictor(run, features));
 }

@@ -25,6 +25,8 @@ namespace svnet::train {
 Scores scores_stage(const Run& run, FeaturesStage& features, const RoundPredictor& predict);
 /// With the predictions of sv_net_round_predictor.
 Scores scores_stage(const Run& run, FeaturesStage& features);
+/// Without rounds: views are drawn uniformly, so that the scores do not depend on a model.
+Scores uniform_scores_stage(const Run& run, FeaturesStage& features);
 
 /// Options that do not change the scores.
 struct ScoringOptions {
