@@ -21,11 +21,11 @@ constexpr HeightRule height_rule(Linkage linkage) {
     case Linkage::ward:
       return {0.75, 0.15};
     case Linkage::average:
-      return {0.82, 0};
-    case Linkage::complete:
       return {0.95, 0};
+    case Linkage::complete:
+      return {0.9, 0.05};
     case Linkage::single:
-      return {0.75, 0};
+      return {0.86, 0};
   }
   return {1, 0};
 }
