@@ -9,23 +9,23 @@
 namespace svnet::semantics {
 namespace {
 
-/// A group height is factor * n^exponent * the mean distance of two items.
+/// A group height is factor * mean^(1 - weight) * top^weight, of the mean distance of two items and the height of the
+/// last merge.
 struct HeightRule {
-  double factor, exponent;
+  double factor, weight;
 };
 
-/// Chosen on the rendered collection, and confirmed on ETH-80 by bench/compare_group_counts.py. Ward's heights grow
-/// with the sizes of what is merged even inside a group, so its rule grows with n.
+/// Chosen on the rendered collection, and confirmed on ETH-80 by bench/compare_group_counts.py.
 constexpr HeightRule height_rule(Linkage linkage) {
   switch (linkage) {
     case Linkage::ward:
-      return {0.75, 0.15};
+      return {1.02, 0.2};
     case Linkage::average:
-      return {0.95, 0};
+      return {0.96, 0};
     case Linkage::complete:
-      return {0.9, 0.05};
+      return {1.02, 0.15};
     case Linkage::single:
-      return {0.86, 0};
+      return {0.9, 0.3};
   }
   return {1, 0};
 }
@@ -117,7 +117,7 @@ Index group_count(GroupCount method, Linkage linkage, const Dendrogram& history,
     return history.items == 1 || history.merges.back().height == 0 ? 1 : 2;
   switch (method) {
     case GroupCount::height:
-      return above_height(history, group_height(linkage, distances));
+      return above_height(history, group_height(linkage, history, distances));
     case GroupCount::silhouette:
       return by_silhouette(history, distances);
     case GroupCount::gap:
@@ -126,7 +126,7 @@ Index group_count(GroupCount method, Linkage linkage, const Dendrogram& history,
   fail("[group_count] no method has this number");
 }
 
-double group_height(Linkage linkage, const DistanceMatrix& distances) {
+double group_height(Linkage linkage, const Dendrogram& history, const DistanceMatrix& distances) {
   const Index n = distances.size();
   if (n < 2) return 0;
   double sum = 0;
@@ -134,7 +134,7 @@ double group_height(Linkage linkage, const DistanceMatrix& distances) {
     for (Index j = 0; j < i; ++j) sum += std::sqrt(static_cast<double>(distances(i, j)));
   const double mean = sum / (static_cast<double>(n) * static_cast<double>(n - 1) / 2);
   const HeightRule rule = height_rule(linkage);
-  return rule.factor * std::pow(static_cast<double>(n), rule.exponent) * mean;
+  return rule.factor * std::pow(mean, 1 - rule.weight) * std::pow(history.merges.back().height, rule.weight);
 }
 
 std::vector<double> mean_silhouettes(const Dendrogram& history, const DistanceMatrix& distances) {
