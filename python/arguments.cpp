@@ -111,6 +111,28 @@ std::string repr(const py::object& given) {
   return py::len(*text) <= kLongest ? shown : shown + "...";
 }
 
+/// Labels as int64, from integers or floats.
+Array<std::int64_t> whole_labels(const char* function, const char* argument, const py::array& array) {
+  const auto place = [&](py::ssize_t i) {
+    const py::ssize_t columns = array.ndim() == 2 ? array.shape(1) : 0;
+    return columns > 0 ? joined("[", i / columns, ", ", i % columns, "]") : joined("[", i, "]");
+  };
+  if (array.dtype().kind() == 'f') {
+    const Array<double> values(array);
+    for (py::ssize_t i = 0; i < values.size(); ++i) {
+      const double value = values.data()[i];
+      check(std::abs(value) <= 0x1p53 && value == std::trunc(value), "[", function, "] ", argument, place(i), " is ",
+            value, "; expects whole numbers");
+    }
+  } else if (array.dtype().kind() == 'u' && array.itemsize() == 8) {
+    const Array<std::uint64_t> values(array);
+    for (py::ssize_t i = 0; i < values.size(); ++i)
+      check(values.data()[i] <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()), "[", function,
+            "] ", argument, place(i), " is ", values.data()[i], ", beyond int64");
+  }
+  return Array<std::int64_t>(array);
+}
+
 }  // namespace
 
 GivenFeatures::GivenFeatures(const char* function, const py::object& given) {
@@ -137,19 +159,15 @@ GivenLabels::GivenLabels(const char* function, const char* argument, const py::o
   const bool text = is_text(array);
   if (!text) check_numbers(function, argument, array, "integers, floats or strings");
   check(array.ndim() == 1, "[", function, "] ", argument, " has shape ", shape_text(array), "; expects (N,)");
-  if (text) array = ranks_of(array);
-  if (array.dtype().kind() == 'f') {
-    const Array<double> values(array);
-    for (py::ssize_t i = 0; i < values.size(); ++i)
-      check(std::abs(values.at(i)) <= 0x1p53 && values.at(i) == std::trunc(values.at(i)), "[", function, "] ", argument,
-            "[", i, "] is ", values.at(i), "; expects whole numbers");
-  } else if (array.dtype().kind() == 'u' && array.itemsize() == 8) {
-    const Array<std::uint64_t> values(array);
-    for (py::ssize_t i = 0; i < values.size(); ++i)
-      check(values.at(i) <= static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max()), "[", function, "] ",
-            argument, "[", i, "] is ", values.at(i), ", beyond int64");
-  }
-  values_ = Array<std::int64_t>(array);
+  values_ = whole_labels(function, argument, text ? ranks_of(array) : array);
+}
+
+GivenLabellings::GivenLabellings(const char* function, const py::object& given) {
+  const py::array array = any_array(function, "labels", given, "whole numbers (L, N)");
+  check_numbers(function, "labels", array);
+  check(array.ndim() == 2 && array.size() > 0, "[", function, "] labels have shape ", shape_text(array),
+        "; expects (L, N), one row per labelling of all items, and at least one");
+  values_ = whole_labels(function, "labels", array);
 }
 
 Array<std::uint8_t> images(const char* function, const py::object& given) {

@@ -51,6 +51,18 @@ class GivenLabels {
   Array<std::int64_t> values_;
 };
 
+/// Labellings (L, N) of the same items, from any array-like of integers or of floats that are whole; at least one.
+class GivenLabellings {
+ public:
+  GivenLabellings(const char* function, const pybind11::object& given);
+
+  std::span<const std::int64_t> values() const { return std::span(values_.data(), values_.size()); }
+  Index items() const { return values_.shape(1); }
+
+ private:
+  Array<std::int64_t> values_;
+};
+
 /// Images (N, H, W, 3) of uint8.
 Array<std::uint8_t> images(const char* function, const pybind11::object& given);
 

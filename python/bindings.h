@@ -6,6 +6,7 @@ namespace svnet::python {
 // Each function adds the contents of one file to the module svnet._svnet.
 void bind_camera_pose(pybind11::module_& module);
 void bind_clustering(pybind11::module_& module);
+void bind_grouping(pybind11::module_& module);
 void bind_cluster_metrics(pybind11::module_& module);
 void bind_scores(pybind11::module_& module);
 void bind_backbone(pybind11::module_& module);

@@ -67,6 +67,7 @@ PYBIND11_MODULE(_svnet, module) {
   module.def("set_threads", set_threads, kSetThreadsDoc, py::arg("n"));
   svnet::python::bind_camera_pose(module);
   svnet::python::bind_clustering(module);
+  svnet::python::bind_grouping(module);
   svnet::python::bind_cluster_metrics(module);
   svnet::python::bind_scores(module);
   svnet::python::bind_backbone(module);

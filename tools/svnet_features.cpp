@@ -1,10 +1,9 @@
 // svnet-features: features of every image of a dataset.
 #include "base/text.h"
+#include "chosen_backbone.h"
 #include "command/command.h"
 #include "io/files/atomic_file.h"
-#include "io/files/file_hash.h"
 #include "io/files/snapshot_path.h"
-#include "io/models/backbone_file.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/dataset_notes.h"
 #include "mpi/mpi_communicator.h"
@@ -16,15 +15,6 @@ using io::KerasLoadReport;
 using train::BackboneWithOrigin;
 
 namespace {
-
-BackboneWithOrigin source_of(const std::string& backbone, const std::string& layer,
-                             const std::filesystem::path& weights, KerasLoadReport& report,
-                             const InferenceOptions& options) {
-  if (!weights.empty()) return {read_backbone(backbone, weights, layer, &report, options), io::file_sha256(weights)};
-  auto built_in = io::built_in_backbone(backbone, layer, options);
-  check(built_in.has_value(), "no weights of ", backbone, " are built in; give a file by --weights");
-  return {std::move(built_in->backbone), built_in->sha256};
-}
 
 /// ", 2 not used (dense, dense_1)"; names at most five.
 std::string unused_text(std::vector<std::string> names) {
@@ -48,11 +38,11 @@ int run(int argc, char** argv, Communicator& communicator) {
       "svnet-features --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos --output features.h5\n"
       "mpirun -n 8 svnet-features --threads 1 --backbone mobilenet_v2 --weights mobilenet_v2.h5 --images photos "
       "--output features.h5");
-  std::vector<std::string> names;
-  for (const models::BackboneKind& kind : models::backbone_kinds()) names.push_back(kind.name);
   std::string backbone, layer, exif{name_of(ExifOrientation::ignore)};
   std::filesystem::path weights, images, output;
-  command.add("--backbone", backbone, "The network: " + joined_with(", ", names)).required().value_name("NAME");
+  command.add("--backbone", backbone, "The network: " + joined_with(", ", backbone_names()))
+      .required()
+      .value_name("NAME");
   command.add("--weights", weights, "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
       .value_name("FILE");
   command.add("--images", images, "The dataset's folder").required().value_name("DIR");
@@ -70,7 +60,7 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (communicator.is_root()) io::check_can_be_written(output, {weights});
         KerasLoadReport report;
         const BackboneWithOrigin source =
-            source_of(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
+            chosen_backbone(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
         if (!weights.empty())
           console.line(
               joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));

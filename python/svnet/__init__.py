@@ -5,6 +5,7 @@
     features = backbone.features(images)                      # (N, 224, 224, 3) uint8 -> (N, 1280) float32
     labels = svnet.ward(features, n_clusters=8)
     print(svnet.fowlkes_mallows(category, labels))
+    groups = svnet.ward(features, svnet.group_count(features))  # an unknown number of groups
     scores = svnet.semantic_scores(features, category, object, pose, min_samples=10000)
     model = svnet.Model.load("model.safetensors")             # written by svnet-train
     index, scores = model.best_view(top_image, [[0, 45], [90, 60]])  # (H, W, 3) uint8; theta, phi in degrees
@@ -24,8 +25,11 @@ from ._svnet import (
     adjusted_rand,
     agglomerative,
     camera_pose,
+    co_association,
+    dendrogram,
     fowlkes_mallows,
     fowlkes_mallows_individual,
+    group_count,
     kmeans,
     normalized_mutual_info,
     pose_grid,
@@ -49,8 +53,11 @@ __all__ = [
     "adjusted_rand",
     "agglomerative",
     "camera_pose",
+    "co_association",
+    "dendrogram",
     "fowlkes_mallows",
     "fowlkes_mallows_individual",
+    "group_count",
     "kmeans",
     "normalized_mutual_info",
     "pose_grid",

@@ -24,8 +24,11 @@ __all__ = [
     "adjusted_rand",
     "agglomerative",
     "camera_pose",
+    "co_association",
+    "dendrogram",
     "fowlkes_mallows",
     "fowlkes_mallows_individual",
+    "group_count",
     "kmeans",
     "normalized_mutual_info",
     "pose_grid",
@@ -86,8 +89,21 @@ def agglomerative(
 def camera_pose(
     theta_deg: float, phi_deg: float, radius: float, centre: ArrayLike, frame: Literal["paper", "optical"] = "paper"
 ) -> NDArray[np.float64]: ...
+def co_association(
+    labels: ArrayLike,
+    n_clusters: SupportsIndex,
+    linkage: Literal["ward", "average", "complete", "single"] = "average",
+) -> NDArray[np.int64]: ...
+def dendrogram(
+    features: ArrayLike, linkage: Literal["ward", "average", "complete", "single"] = "ward"
+) -> NDArray[np.float64]: ...
 def fowlkes_mallows(true: ArrayLike, pred: ArrayLike) -> float: ...
 def fowlkes_mallows_individual(true: ArrayLike, pred: ArrayLike) -> NDArray[np.float64]: ...
+def group_count(
+    features: ArrayLike,
+    method: Literal["height", "silhouette", "gap"] = "height",
+    linkage: Literal["ward", "average", "complete", "single"] = "ward",
+) -> int: ...
 def kmeans(
     features: ArrayLike, n_clusters: SupportsIndex, n_init: SupportsIndex = 10, seed: SupportsIndex = 0
 ) -> tuple[NDArray[np.int64], float]: ...

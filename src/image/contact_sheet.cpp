@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <opencv2/imgproc.hpp>
 
+#include "base/text.h"
 #include "image/opencv_image.h"
 
 namespace svnet {
@@ -78,6 +79,60 @@ Image contact_sheet(std::span<const SheetLine> lines, const SheetLayout& layout)
       x += layout.margin;
     }
     y += height;
+  }
+  return sheet;
+}
+
+std::string fitted_text(const std::string& text, Index width, double font_size) {
+  std::string shown;
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if ((byte & 0xc0) != 0x80) shown += byte < 0x80 ? printable(c) : '?';  // one '?' per character of UTF-8
+  }
+  const auto fits = [&](const std::string& part) {
+    return cv::getTextSize(part, kFont, font_size, 1, nullptr).width <= static_cast<int>(width);
+  };
+  if (fits(shown)) return shown;
+  const auto cut_to = [&](std::size_t kept) {
+    const std::size_t end = kept / 2;
+    return shown.substr(0, kept - end) + ".." + shown.substr(shown.size() - end);
+  };
+  std::size_t kept = shown.size() - 1;
+  while (kept > 0 && !fits(cut_to(kept))) --kept;
+  return cut_to(kept);
+}
+
+Image framed_sheet(std::span<const FramedGroup> groups, Index columns, const SheetLayout& layout) {
+  constexpr Index kFrame = 2;  // pixels
+  const Index step_x = layout.cell + layout.gap, step_y = layout.cell + layout.text + layout.gap;
+  const auto lines_of = [&](const FramedGroup& framed) {
+    return (static_cast<Index>(framed.group.cells.size()) + columns - 1) / columns;
+  };
+  Index widest = 1, height = layout.margin;
+  for (const FramedGroup& framed : groups) {
+    widest = std::max(widest, std::min(columns, static_cast<Index>(framed.group.cells.size())));
+    height += layout.text + layout.gap + lines_of(framed) * step_y + layout.margin;
+  }
+  const Index frame_width = widest * step_x + layout.gap;
+  Image sheet = white(height, frame_width + 2 * layout.margin);
+  cv::Mat3b pixels = matrix_of(sheet);
+  Index top = layout.margin;
+  for (const FramedGroup& framed : groups) {
+    const cv::Scalar colour(framed.colour[0], framed.colour[1], framed.colour[2]);
+    const Index frame_height = lines_of(framed) * step_y + layout.gap;
+    write_text(pixels, fitted_text(framed.group.title, frame_width, layout.font_size), layout.margin,
+               top + layout.text - kTitleRise, layout.font_size);
+    top += layout.text;
+    const cv::Rect frame(static_cast<int>(layout.margin), static_cast<int>(top), static_cast<int>(frame_width),
+                         static_cast<int>(frame_height));
+    cv::rectangle(pixels, frame, colour, kFrame);
+    for (std::size_t i = 0; i < framed.group.cells.size(); ++i) {
+      SheetCell cell = framed.group.cells[i];
+      cell.caption = fitted_text(cell.caption, layout.cell, layout.font_size);
+      const Index column = static_cast<Index>(i) % columns, line = static_cast<Index>(i) / columns;
+      draw_cell(pixels, cell, layout.margin + layout.gap + column * step_x, top + layout.gap + line * step_y, layout);
+    }
+    top += frame_height + layout.margin;
   }
   return sheet;
 }

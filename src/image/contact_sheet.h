@@ -1,4 +1,6 @@
 #pragma once
+#include <array>
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,6 +38,20 @@ struct SheetLayout {
 
 /// Images and texts on white. The widest line sets the width.
 Image contact_sheet(std::span<const SheetLine> lines, const SheetLayout& layout);
+
+/// A group in a frame.
+struct FramedGroup {
+  SheetGroup group;
+  std::array<std::uint8_t, 3> colour{};  ///< of the frame: red, green, blue
+};
+
+/// Groups one below the other on white, each in a frame with its title above. Cells wrap after `columns`. Captions that
+/// are wider than a cell are shortened by fitted_text.
+Image framed_sheet(std::span<const FramedGroup> groups, Index columns, const SheetLayout& layout);
+
+/// The text as far as OpenCV's font can show it in that width, in pixels: other characters than those of ASCII become
+/// '?', and of what is too long, the middle becomes "..".
+std::string fitted_text(const std::string& text, Index width, double font_size);
 
 /// The image, as large as fits into a square of that side.
 Image resized_to_fit(const Image& image, Index side);

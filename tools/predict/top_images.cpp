@@ -4,6 +4,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/images/image_name.h"
 #include "io/views/dataset_folder.h"
 
 namespace svnet {
@@ -28,12 +29,6 @@ std::vector<TopImage> of_dataset(const fs::path& folder) {
   return images;
 }
 
-bool is_image(const fs::path& path) {
-  const std::string extension = path.extension().string();
-  return std::ranges::any_of(std::to_array({".png", ".jpg", ".jpeg", ".webp", ".PNG", ".JPG", ".JPEG", ".WEBP"}),
-                             [&](const char* known) { return extension == known; });
-}
-
 fs::path depth_of(const fs::path& image, const fs::path& folder) {
   if (folder.empty()) return {};
   for (const char* ending : {".png", ".npy"}) {
@@ -55,7 +50,7 @@ std::vector<TopImage> top_images(const fs::path& folder, const fs::path& depth) 
             ": --depth is not needed with a data set, which has its depth images in _extra");
       return of_dataset(folder);
     }
-    if (is_image(entry.path())) files.push_back(entry.path());
+    if (io::is_image_name(entry.path())) files.push_back(entry.path());
   }
   check(!files.empty(), folder.string(), ": holds no PNG, JPEG or WebP file, and no data set");
   std::ranges::sort(files, [](const fs::path& a, const fs::path& b) { return natural_less(a.string(), b.string()); });

@@ -14,6 +14,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "io/files/file_hash.h"
+#include "io/images/image_name.h"
 #include "io/views/composed_name.h"
 
 namespace svnet::io {
@@ -81,11 +82,6 @@ std::vector<fs::path> subfolders(const fs::path& folder, const char* what, const
   return found;
 }
 
-bool has_view_extension(const fs::path& path) {
-  const std::string extension = lower_case(path.extension().string());
-  return extension == ".png" || extension == ".jpg" || extension == ".jpeg" || extension == ".webp";
-}
-
 /// One to four digits as a number.
 std::optional<int> angle(std::string_view text) {
   if (text.empty() || text.size() > 4 ||
@@ -101,7 +97,7 @@ struct Angles {
 };
 
 Angles angles_of(const fs::path& path) {
-  check(is_file(path) && has_view_extension(path), path.string(), ": not a view; a pose holds files named ", kViewNames,
+  check(is_file(path) && is_image_name(path), path.string(), ": not a view; a pose holds files named ", kViewNames,
         " (names that begin with '_' or '.' are ignored)");
   const std::string stem = path.stem().string();
   const std::size_t line = stem.find('_');
