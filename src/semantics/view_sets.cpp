@@ -6,7 +6,7 @@
 
 namespace svnet::semantics {
 
-SetDistances::SetDistances(const DistanceMatrix& distances, Index size, Fusion fusion, Index max_items)
+SetDistances::SetDistances(const DistanceMatrix& distances, Index size, ViewFusion fusion, Index max_items)
     : distances_(distances),
       size_(size),
       fusion_(fusion),
@@ -24,7 +24,7 @@ float SetDistances::spread(std::span<const std::int32_t> set) const {
 void SetDistances::add_row(std::span<const std::int32_t> views, Index item, Index member, float* to) const {
   const float* const row = distances_.row(views[static_cast<std::size_t>(item * size_ + member)]);
   const std::int32_t* other = views.data();
-  if (fusion_ == Fusion::concatenate) {
+  if (fusion_ == ViewFusion::concatenate) {
     for (Index j = 0; j < item; ++j, other += size_) to[j] += row[other[member]];
     return;
   }
@@ -34,7 +34,7 @@ void SetDistances::add_row(std::span<const std::int32_t> views, Index item, Inde
 
 LowerTriangle SetDistances::of(std::span<const std::int32_t> views) {
   const Index items = static_cast<Index>(views.size()) / size_;
-  const bool means = fusion_ == Fusion::mean;
+  const bool means = fusion_ == ViewFusion::mean;
   for (Index i = 0; i < items; ++i)
     spread_[static_cast<std::size_t>(i)] =
         means ? spread(views.subspan(static_cast<std::size_t>(i * size_), static_cast<std::size_t>(size_))) : 0.0f;
@@ -51,7 +51,7 @@ LowerTriangle SetDistances::of(std::span<const std::int32_t> views) {
 }
 
 DistanceMatrix distances_with_partner(const DistanceMatrix& distances, std::span<const std::int32_t> partner,
-                                      Fusion fusion, Parallel& parallel) {
+                                      ViewFusion fusion, Parallel& parallel) {
   const Index n = distances.size();
   check(static_cast<Index>(partner.size()) == n, "[sets] ", partner.size(), " partners for ", n, " views");
   DistanceMatrix result(n);
@@ -62,7 +62,7 @@ DistanceMatrix distances_with_partner(const DistanceMatrix& distances, std::span
       float* const to = result.row(v);
       for (Index w = 0; w < n; ++w) {
         const auto other = partner[static_cast<std::size_t>(w)];
-        to[w] = fusion == Fusion::concatenate
+        to[w] = fusion == ViewFusion::concatenate
                     ? of_view[w] + of_partner[other]
                     : std::max(((of_view[w] + of_partner[other]) + (of_view[other] + of_partner[w])) / 4 -
                                    of_view[own] / 4 - distances(w, other) / 4,

@@ -3,25 +3,17 @@
 #include <span>
 #include <vector>
 
-#include "base/enum_names.h"
 #include "semantics/distances.h"
 #include "semantics/lower_triangle.h"
+#include "semantics/view_fusion.h"
 
 namespace svnet::semantics {
-
-/// How the features of several views of an object become those of one item.
-///   mean         their mean
-///   concatenate  one after the other, in the order of the set
-enum class Fusion { mean, concatenate };
-constexpr auto enum_table(Fusion) {
-  return std::to_array<EnumName<Fusion>>({{Fusion::mean, "mean"}, {Fusion::concatenate, "concatenate"}});
-}
 
 /// Sets of `size` views each: (sets, size) rows of a distance matrix.
 struct ViewSets {
   Index size = 1;
   std::vector<std::int32_t> views{};
-  Fusion fusion = Fusion::mean;
+  ViewFusion fusion = ViewFusion::mean;
 
   Index count() const { return static_cast<Index>(views.size()) / size; }
   std::span<const std::int32_t> set(Index i) const {
@@ -35,7 +27,7 @@ struct ViewSets {
 class SetDistances {
  public:
   /// Keeps a reference to the distances. Memory for up to max_items items of `size` views.
-  SetDistances(const DistanceMatrix& distances, Index size, Fusion fusion, Index max_items);
+  SetDistances(const DistanceMatrix& distances, Index size, ViewFusion fusion, Index max_items);
 
   /// views: (items, size) rows of the matrix. The result is valid until the next call. Allocates nothing.
   LowerTriangle of(std::span<const std::int32_t> views);
@@ -46,7 +38,7 @@ class SetDistances {
 
   const DistanceMatrix& distances_;
   Index size_;
-  Fusion fusion_;
+  ViewFusion fusion_;
   std::vector<float> spread_;  // of each item: 1/k² Σ d(a, a') over its pairs
   AlignedArray<float> triangle_;
 };
@@ -54,6 +46,6 @@ class SetDistances {
 /// The squared distances between the sets {v, partner[v]} of all views: with them, scores of views are scores of sets.
 /// Throws Error if there is not one partner per view.
 DistanceMatrix distances_with_partner(const DistanceMatrix& distances, std::span<const std::int32_t> partner,
-                                      Fusion fusion, Parallel& parallel);
+                                      ViewFusion fusion, Parallel& parallel);
 
 }  // namespace svnet::semantics

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "semantics/co_association.h"
 
 namespace svnet::train {
 using semantics::ClusteringProblem;
@@ -22,6 +23,22 @@ struct Worker {
   std::vector<std::int32_t> labels;
 };
 
+/// Labels by co-association of the clusterings of each view.
+void vote(Worker& worker, semantics::Clusterer& clusterer, const semantics::DistanceMatrix& distances, Index views,
+          std::uint64_t number, std::uint64_t seed, std::span<std::int32_t> labels) {
+  const ClusteringProblem& problem = worker.problem;
+  std::vector<std::int64_t> votes;
+  std::vector<std::int32_t> rows(labels.size());
+  for (Index view = 0; view < views; ++view) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      rows[i] = problem.rows[i * static_cast<std::size_t>(views) + static_cast<std::size_t>(view)];
+    clusterer.cluster(distances, rows, problem.categories, seed, number, labels);
+    votes.insert(votes.end(), labels.begin(), labels.end());
+  }
+  std::ranges::copy(semantics::co_association(votes, static_cast<Index>(labels.size()), problem.categories),
+                    labels.begin());
+}
+
 /// The metrics of the worker's problem, whose items have one view or sets of views.
 PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const semantics::DistanceMatrix& distances,
                              Index views, std::uint64_t number, const EvaluationOptions& options) {
@@ -30,6 +47,8 @@ PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const semanti
   semantics::Clusterer& clusterer = worker.clusterers[pipeline];
   if (views == 1)
     clusterer.cluster(distances, problem.rows, problem.categories, options.seed, number, labels);
+  else if (options.fusion == ViewsTogether::votes)
+    vote(worker, clusterer, distances, views, number, options.seed, labels);
   else
     clusterer.cluster(worker.sets.at({pipeline, views}).of(problem.rows), problem.categories, options.seed, number,
                       labels);
@@ -141,9 +160,11 @@ void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vect
       worker.clusterers.emplace_back(pipeline.clustering, problems.max_items(), problems.max_categories());
     for (std::size_t p = 0; p < pipelines.size(); ++p)
       for (const Selector& selector : set.selectors)
-        if (selector.views > 1)
-          worker.sets.try_emplace({p, selector.views}, *pipelines[p].distances, selector.views, options.fusion,
-                                  problems.max_items());
+        if (selector.views > 1 && options.fusion != ViewsTogether::votes)
+          worker.sets.try_emplace(
+              {p, selector.views}, *pipelines[p].distances, selector.views,
+              options.fusion == ViewsTogether::mean ? semantics::ViewFusion::mean : semantics::ViewFusion::concatenate,
+              problems.max_items());
     worker.labels.resize(static_cast<std::size_t>(problems.max_items()));
     workers.push_back(std::move(worker));
   }

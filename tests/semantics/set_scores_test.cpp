@@ -27,7 +27,7 @@ struct Pairs {
   SmallDataset views, pairs;
   ViewSets sets{.size = 2};
 
-  explicit Pairs(Fusion fusion) {
+  explicit Pairs(ViewFusion fusion) {
     views.add(10, 1, 1, 3);
     views.add(10, 2, 1, 2);
     views.add(-3, 1, 1, 3);
@@ -62,7 +62,7 @@ std::vector<float> fused(const ViewSets& sets, const std::vector<float>& feature
     return features[static_cast<std::size_t>(view * kDimension + d)];
   };
   for (Index i = 0; i < sets.count(); ++i) {
-    if (sets.fusion == Fusion::concatenate) {
+    if (sets.fusion == ViewFusion::concatenate) {
       for (const std::int32_t view : sets.set(i))
         for (Index d = 0; d < kDimension; ++d) result.push_back(feature(view, d));
       continue;
@@ -79,15 +79,15 @@ std::vector<float> fused(const ViewSets& sets, const std::vector<float>& feature
 }  // namespace
 
 TEST_CASE("distances of sets are those of their fused features") {
-  const Pairs pairs(Fusion::mean);
+  const Pairs pairs(ViewFusion::mean);
   const auto features = features_of(pairs.views);
   const DistanceMatrix distances = distances_of(features, kDimension);
   for (const Index size : {1, 2, 3})
-    for (const Fusion fusion : {Fusion::mean, Fusion::concatenate}) {
+    for (const ViewFusion fusion : {ViewFusion::mean, ViewFusion::concatenate}) {
       ViewSets sets{.size = size, .fusion = fusion};
       for (std::int32_t i = 0; i < 6 * size; ++i) sets.views.push_back(i * 5 % 17);
       const auto expected =
-          distances_of(fused(sets, features), fusion == Fusion::mean ? kDimension : kDimension * size);
+          distances_of(fused(sets, features), fusion == ViewFusion::mean ? kDimension : kDimension * size);
       SetDistances of_sets(distances, size, fusion, 6);
       const LowerTriangle triangle = of_sets.of(sets.views);
       REQUIRE(triangle.points == 6);
@@ -97,34 +97,34 @@ TEST_CASE("distances of sets are those of their fused features") {
 }
 
 TEST_CASE("distances with a partner are those of the sets of two") {
-  const Pairs pairs(Fusion::mean);
+  const Pairs pairs(ViewFusion::mean);
   const auto features = features_of(pairs.views);
   const DistanceMatrix distances = distances_of(features, kDimension);
   std::vector<std::int32_t> partner;
   for (std::int32_t v = 0; v < distances.size(); ++v) partner.push_back(v / 3 * 3);
-  for (const Fusion fusion : {Fusion::mean, Fusion::concatenate}) {
+  for (const ViewFusion fusion : {ViewFusion::mean, ViewFusion::concatenate}) {
     ViewSets sets{.size = 2, .fusion = fusion};
     for (std::int32_t v = 0; v < distances.size(); ++v) {
       sets.views.push_back(v);
       sets.views.push_back(partner[static_cast<std::size_t>(v)]);
     }
-    const auto expected = distances_of(fused(sets, features), fusion == Fusion::mean ? kDimension : 2 * kDimension);
+    const auto expected = distances_of(fused(sets, features), fusion == ViewFusion::mean ? kDimension : 2 * kDimension);
     const DistanceMatrix actual = distances_with_partner(distances, partner, fusion, Parallel::shared());
     for (Index v = 0; v < distances.size(); ++v)
       for (Index w = 0; w < distances.size(); ++w) CHECK(actual(v, w) == Approx(expected(v, w)).margin(1e-5));
   }
   partner.pop_back();
-  CHECK_THROWS_WITH(distances_with_partner(distances, partner, Fusion::mean, Parallel::shared()),
+  CHECK_THROWS_WITH(distances_with_partner(distances, partner, ViewFusion::mean, Parallel::shared()),
                     "[sets] 18 partners for 19 views");
 }
 
 TEST_CASE("scores of sets are within four standard errors of the exact expectations") {
-  for (const Fusion fusion : {Fusion::mean, Fusion::concatenate}) {
+  for (const ViewFusion fusion : {ViewFusion::mean, ViewFusion::concatenate}) {
     const Pairs pairs(fusion);
     const auto features = features_of(pairs.views);
     const DistanceMatrix distances = distances_of(features, kDimension);
     const DistanceMatrix of_pairs =
-        distances_of(fused(pairs.sets, features), fusion == Fusion::mean ? kDimension : 2 * kDimension);
+        distances_of(fused(pairs.sets, features), fusion == ViewFusion::mean ? kDimension : 2 * kDimension);
     const ExactScores exact = exact_scores(of_pairs, all_problems(pairs.pairs, 3), Singletons::zero);
     const auto scores =
         set_scores(distances, pairs.sets, pairs.problems(), {.problems = 100000, .seed = 72}, Parallel::shared());
@@ -138,7 +138,7 @@ TEST_CASE("scores of sets are within four standard errors of the exact expectati
 }
 
 TEST_CASE("scores of sets have the same bits for any number of threads") {
-  const Pairs pairs(Fusion::mean);
+  const Pairs pairs(ViewFusion::mean);
   const DistanceMatrix distances = distances_of(features_of(pairs.views), kDimension);
   const ClusteringProblems problems = pairs.problems();
   const auto sums_with = [&](int threads) {
@@ -168,7 +168,7 @@ TEST_CASE("scores of sets of one view are those of the views") {
 }
 
 TEST_CASE("sets that do not fit are refused") {
-  const Pairs pairs(Fusion::mean);
+  const Pairs pairs(ViewFusion::mean);
   const DistanceMatrix distances = distances_of(features_of(pairs.views), kDimension);
   ViewSets sets = pairs.sets;
   sets.views[3] = 19;

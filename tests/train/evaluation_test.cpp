@@ -102,6 +102,12 @@ TEST_CASE("several views of an object are clustered by their fused features") {
   CHECK(table.cells[0][2][2].mean == 1);  // both views of each object, in any order
   CHECK(table.cells[0][4][2].mean == 1);
 
+  // By its votes, one view of each object says nothing that the other would not contradict.
+  const auto votes = evaluate(dataset, {{problems, selectors}}, pipelines,
+                              {.problems = 300, .fusion = ViewsTogether::votes}, two, {}, "");
+  CHECK(votes.cells[0][0][2].mean == table.cells[0][0][2].mean);
+  CHECK(votes.cells[0][4][2].mean < 1);
+
   const auto json = differences_json(table).at("line_ward");
   CHECK(json.contains("svnet-top"));
   CHECK(json.contains("svnet_2-svnet"));

@@ -54,4 +54,15 @@ constexpr auto enum_table(TopViewAugmentation) {
       {{TopViewAugmentation::none, "none"}, {TopViewAugmentation::turns, "turns"}});
 }
 
+/// How several views of an object are clustered together.
+///   mean         by the mean of their features
+///   concatenate  by all their features
+///   votes        each view by itself; then what most of these clusterings put together (semantics/co_association.h)
+enum class ViewsTogether { mean, concatenate, votes };
+constexpr auto enum_table(ViewsTogether) {
+  return std::to_array<EnumName<ViewsTogether>>({{ViewsTogether::mean, "mean"},
+                                                 {ViewsTogether::concatenate, "concatenate"},
+                                                 {ViewsTogether::votes, "votes"}});
+}
+
 }  // namespace svnet::train

@@ -201,7 +201,9 @@ std::vector<BoundKey> bound_keys(Config& c) {
           "Compare selectors of up to N views of each object, such as svnet_2: a random view, SV-net and the best "
           "views.")),
       later(choice(Stage::evaluation, "evaluation.fusion", c.evaluation.fusion,
-                   "What the views of an object are clustered by: the mean of their features, or all features.")),
+                   "How several views of an object are clustered: by the mean of their features, by all features, or "
+                   "each by itself and "
+                   "then by what most of these clusterings put together.")),
       choice(Stage::evaluation, "evaluation.nmi", c.evaluation.nmi,
              "Mean that normalises NMI. The paper's tables use geometric."),
   };
