@@ -18,19 +18,23 @@ constexpr SelectorWords kSelectorWords[] = {
     {"opt_glob", "best global", "the best view by global score"},
 };
 
+/// The words for a selector; "SV-net, 2 views" for several views.
+std::string words_of(const std::string& name, const char* SelectorWords::*words) {
+  for (const SelectorWords& selector : kSelectorWords) {
+    const std::string_view kind = selector.name;
+    if (name == kind) return selector.*words;
+    if (name.starts_with(kind) && name.size() == kind.size() + 2 && name[kind.size()] == '_' &&
+        std::isdigit(static_cast<unsigned char>(name.back())) != 0)
+      return std::string(selector.*words) + ", " + name.back() + " views";
+  }
+  return name;
+}
+
 }  // namespace
 
-std::string selector_words(const std::string& name) {
-  for (const SelectorWords& selector : kSelectorWords)
-    if (name == selector.name) return selector.words;
-  return name;
-}
+std::string selector_words(const std::string& name) { return words_of(name, &SelectorWords::words); }
 
-std::string selector_label(const std::string& name) {
-  for (const SelectorWords& selector : kSelectorWords)
-    if (name == selector.name) return selector.label;
-  return name;
-}
+std::string selector_label(const std::string& name) { return words_of(name, &SelectorWords::label); }
 
 std::string Ids::make(std::string_view text) {
   std::string id;

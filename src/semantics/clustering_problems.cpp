@@ -209,4 +209,17 @@ void ClusteringProblems::draw_views(RandomStream& random, ClusteringProblem& pro
   }
 }
 
+void ClusteringProblems::draw_views(RandomStream& random, ClusteringProblem& problem, Index count) const {
+  if (count == 1) return draw_views(random, problem);
+  problem.rows.clear();
+  auto& views = problem.scratch_objects;
+  for (const std::int32_t pose : problem.poses) {
+    const auto all = views_of_pose(pose);
+    views.assign(all.begin(), all.end());
+    const Index drawn = std::min(count, static_cast<Index>(views.size()));
+    draw_without_replacement(random, views.data(), static_cast<Index>(views.size()), drawn);
+    for (Index i = 0; i < count; ++i) problem.rows.push_back(views[static_cast<std::size_t>(i % drawn)]);
+  }
+}
+
 }  // namespace svnet::semantics

@@ -51,6 +51,9 @@ class ClusteringProblems {
   void draw_poses(RandomStream& random, ClusteringProblem& problem) const;
   /// Draws a view of each pose of the problem.
   void draw_views(RandomStream& random, ClusteringProblem& problem) const;
+  /// Draws `count` views of each pose, all different unless the pose has fewer: then they are repeated in turn.
+  /// problem.rows (items, count). One view: as above; several are drawn uniformly.
+  void draw_views(RandomStream& random, ClusteringProblem& problem, Index count) const;
 
   Index views() const { return pose_of_view_.size(); }
   Index poses() const { return pose_.size(); }

@@ -1,7 +1,5 @@
 #include "semantics/problem_solver.h"
 
-#include <cmath>
-
 #include "base/error.h"
 
 namespace svnet::semantics {
@@ -51,22 +49,8 @@ void ProblemSolver::solve_one(Index problem, std::uint64_t number, Worker& worke
     truth[i] = label;
   }
   worker.clusterer.cluster(batch_.distances(problem), batch_.categories(problem), scoring_.seed, number, prediction);
-  const std::uint64_t global =
-      ScoreSums::fixed(worker.scores.score(truth, prediction, scoring_.singletons, individual));
-  const std::uint64_t even = 1 - number % 2;
-  for (std::size_t i = 0; i < items; ++i) {
-    auto& view = worker.sums.views[rows[i]];
-    ++view.count;
-    view.global += global;
-    if (std::isnan(individual[i])) continue;
-    ++view.individual_count;
-    const std::uint64_t score = ScoreSums::fixed(individual[i]);
-    view.individual += score;
-    view.even_count += even;
-    view.even += even * score;
-    view.individual_squared += ScoreSums::fixed(individual[i] * individual[i]);
-  }
-  ++worker.sums.problems;
+  const double global = worker.scores.score(truth, prediction, scoring_.singletons, individual);
+  worker.sums.add(rows, number, global, individual);
 }
 
 void ProblemSolver::solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums) {

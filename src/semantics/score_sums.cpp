@@ -16,6 +16,24 @@ double mean(std::uint64_t sum, std::uint64_t count) { return count == 0 ? kNaN :
 
 }  // namespace
 
+void ScoreSums::add(std::span<const std::int32_t> items, std::uint64_t number, double global,
+                    std::span<const double> individual) {
+  const std::uint64_t fixed_global = fixed(global), even = 1 - number % 2;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    View& view = views[static_cast<std::size_t>(items[i])];
+    ++view.count;
+    view.global += fixed_global;
+    if (std::isnan(individual[i])) continue;
+    ++view.individual_count;
+    const std::uint64_t score = fixed(individual[i]);
+    view.individual += score;
+    view.even_count += even;
+    view.even += even * score;
+    view.individual_squared += fixed(individual[i] * individual[i]);
+  }
+  ++problems;
+}
+
 void ScoreSums::add_and_clear(ScoreSums& other) {
   check(views.size() == other.views.size(), "[scores] sums of ", other.views.size(),
         " views cannot be added to those of ", views.size());

@@ -44,6 +44,10 @@ struct ScoreSums {
     return {reinterpret_cast<const std::uint64_t*>(views.data()), views.size() * kValuesPerView};
   }
 
+  /// Adds the scores of problem `number`: of all of it, and of each item; NaN: none. `items` are their views.
+  void add(std::span<const std::int32_t> items, std::uint64_t number, double global,
+           std::span<const double> individual);
+
   /// Adds `other` and sets it to zero. Throws Error if it has another number of views.
   void add_and_clear(ScoreSums& other);
 };

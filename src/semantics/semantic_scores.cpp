@@ -80,10 +80,16 @@ std::uint64_t expected_problems(const ClusteringProblems& problems, const ScoreO
 
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
                      Parallel& parallel, Communicator& communicator, ScoreSums& sums, const ScoreProgress& callbacks) {
+  ProblemSolver solver(distances, problems, options.scoring(), parallel);
+  continue_scores([&](std::uint64_t first, std::uint64_t last, ScoreSums& to) { solver.solve(first, last, to); },
+                  problems, options, communicator, sums, callbacks);
+}
+
+void continue_scores(SolveProblems solve, const ClusteringProblems& problems, const ScoreOptions& options,
+                     Communicator& communicator, ScoreSums& sums, const ScoreProgress& callbacks) {
   check_rules(options);
   check(std::ssize(sums.views) == problems.views(), "[scores] the sums so far are of ", sums.views.size(),
         " views, the problems of ", problems.views());
-  ProblemSolver solver(distances, problems, options.scoring(), parallel);
   static const Messages kSilent;
   const std::uint64_t start = sums.problems, expected = expected_problems(problems, options);
   Progress progress(callbacks.messages == nullptr ? kSilent : *callbacks.messages, "semantic scores",
@@ -100,7 +106,7 @@ void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& 
           ": raise target_error or lower min_samples");
     last = communicator.broadcast(last);
     const Share share = share_of(communicator, sums.problems, last);
-    solver.solve(share.first, share.last, step);
+    solve(share.first, share.last, step);
     communicator.all_reduce(step.values());
     step.problems = last - sums.problems;
     sums.add_and_clear(step);

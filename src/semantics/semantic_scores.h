@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/communicator.h"
+#include "base/function_ref.h"
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "semantics/problem_solver.h"
@@ -33,6 +34,9 @@ struct ScoreProgress {
   std::function<void(const ScoreSums&)> after_step;
 };
 
+/// Solves problems [first, last) and adds their scores to the sums.
+using SolveProblems = FunctionRef<void(std::uint64_t first, std::uint64_t last, ScoreSums& sums)>;
+
 /// Adds problems to `sums`, from problem sums.problems on, until a stopping rule holds. Requires: `sums` hold problems
 /// 0 to sums.problems - 1, and all processes of the communicator have equal sums. Afterwards they are equal again.
 ///
@@ -42,6 +46,9 @@ struct ScoreProgress {
 void continue_scores(const DistanceMatrix& distances, const ClusteringProblems& problems, const ScoreOptions& options,
                      Parallel& parallel, Communicator& communicator, ScoreSums& sums,
                      const ScoreProgress& callbacks = {});
+/// The same for problems that are solved in another way.
+void continue_scores(SolveProblems solve, const ClusteringProblems& problems, const ScoreOptions& options,
+                     Communicator& communicator, ScoreSums& sums, const ScoreProgress& callbacks = {});
 
 /// Semantic scores by Monte-Carlo (PAPER.md section 4): for each view, the means of its individual and global scores
 /// over the random problems that contain it. Views of excluded categories have count 0 and scores NaN.

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "base/error.h"
 
@@ -14,20 +16,38 @@ namespace {
 /// The memory of one thread.
 struct Worker {
   ClusteringProblem problem;
-  std::vector<semantics::Clusterer> clusterers;  // per pipeline
+  std::vector<semantics::Clusterer> clusterers;                           // per pipeline
+  std::map<std::pair<std::size_t, Index>, semantics::SetDistances> sets;  // by pipeline and number of views
   Contingency contingency;
   std::vector<std::int32_t> labels;
 };
 
+/// The metrics of the worker's problem, whose items have one view or sets of views.
 PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const semantics::DistanceMatrix& distances,
-                             std::uint64_t number, const EvaluationOptions& options) {
+                             Index views, std::uint64_t number, const EvaluationOptions& options) {
   const ClusteringProblem& problem = worker.problem;
-  const auto labels = std::span(worker.labels).first(problem.rows.size());
-  worker.clusterers[pipeline].cluster(distances, problem.rows, problem.categories, options.seed, number, labels);
+  const auto labels = std::span(worker.labels).first(problem.labels.size());
+  semantics::Clusterer& clusterer = worker.clusterers[pipeline];
+  if (views == 1)
+    clusterer.cluster(distances, problem.rows, problem.categories, options.seed, number, labels);
+  else
+    clusterer.cluster(worker.sets.at({pipeline, views}).of(problem.rows), problem.categories, options.seed, number,
+                      labels);
   worker.contingency.count(problem.labels, labels);
   PerMetric<double> values{};
   for (std::size_t m = 0; m < kMetrics.size(); ++m) values[m] = kMetrics[m].value(worker.contingency, options.nmi);
   return values;
+}
+
+/// Puts the views that the selector chooses into the problem.
+void choose_views(const semantics::ClusteringProblems& problems, const Selector& selector, RandomStream& random,
+                  ClusteringProblem& problem) {
+  if (selector.view.empty()) return problems.draw_views(random, problem, selector.views);
+  problem.rows.clear();
+  for (const std::int32_t pose : problem.poses) {
+    const auto first = selector.view.begin() + pose * selector.views;
+    problem.rows.insert(problem.rows.end(), first, first + selector.views);
+  }
 }
 
 /// Mean and standard error of a sequence of values (Welford 1962).
@@ -116,9 +136,14 @@ void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vect
         "[evaluation] the problems are of another dataset");
   std::vector<Worker> workers;
   for (int i = 0; i < parallel.threads(); ++i) {
-    Worker worker{problems.new_problem(), {}, Contingency(problems.max_items()), {}};
+    Worker worker{problems.new_problem(), {}, {}, Contingency(problems.max_items()), {}};
     for (const auto& pipeline : pipelines)
       worker.clusterers.emplace_back(pipeline.clustering, problems.max_items(), problems.max_categories());
+    for (std::size_t p = 0; p < pipelines.size(); ++p)
+      for (const Selector& selector : set.selectors)
+        if (selector.views > 1)
+          worker.sets.try_emplace({p, selector.views}, *pipelines[p].distances, selector.views, options.fusion,
+                                  problems.max_items());
     worker.labels.resize(static_cast<std::size_t>(problems.max_items()));
     workers.push_back(std::move(worker));
   }
@@ -137,15 +162,10 @@ void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vect
         problems.draw_poses(poses, worker.problem);
         categories[static_cast<std::size_t>(i - block)] = categories_of(dataset, worker.problem);
         for (std::size_t s = 0; s < selectors; ++s) {
-          if (set.selectors[s].view.empty()) {
-            problems.draw_views(views, worker.problem);
-          } else {
-            worker.problem.rows.clear();
-            for (std::int32_t pose : worker.problem.poses)
-              worker.problem.rows.push_back(set.selectors[s].view[static_cast<std::size_t>(pose)]);
-          }
+          choose_views(problems, set.selectors[s], views, worker.problem);
           for (std::size_t p = 0; p < pipelines.size(); ++p) {
-            const auto metrics = metrics_of(worker, p, *pipelines[p].distances, problem_number, options);
+            const auto metrics =
+                metrics_of(worker, p, *pipelines[p].distances, set.selectors[s].views, problem_number, options);
             std::copy(metrics.begin(), metrics.end(),
                       values.values.begin() +
                           static_cast<std::ptrdiff_t>(problem_number * stride + (p * selectors + s) * kMetrics.size()));

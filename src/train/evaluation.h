@@ -9,6 +9,7 @@
 #include "semantics/clusterer.h"
 #include "semantics/clustering_problems.h"
 #include "semantics/distances.h"
+#include "semantics/view_sets.h"
 #include "train/category_bootstrap.h"
 #include "train/metrics.h"
 #include "train/selectors.h"
@@ -48,6 +49,7 @@ struct EvaluationOptions {
   std::uint64_t problems = 10000;
   std::uint64_t seed = 0;
   semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
+  semantics::Fusion fusion = semantics::Fusion::mean;  ///< of the views of an object, if there are several
   /// Selectors to compare with, if the table has them.
   std::vector<std::string> baselines{"top", "rand", "broadside", "phi_map"};
 };

@@ -5,6 +5,8 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "base/text.h"
+
 namespace svnet::train {
 namespace {
 
@@ -35,28 +37,34 @@ std::string row_name(const EvaluationTable& table, std::size_t row) {
   return row < table.pipelines.size() ? table.pipelines[row] : "mean";
 }
 
-std::size_t index_of_svnet(const EvaluationTable& table) {
-  return static_cast<std::size_t>(std::find(table.selectors.begin(), table.selectors.end(), "svnet") -
-                                  table.selectors.begin());
+bool is_svnet(const std::string& selector) { return selector == "svnet" || selector.starts_with("svnet_"); }
+
+/// The selectors to compare with others: SV-net, with each number of views. Calls use(selector, baseline, row,
+/// differences per metric) for each that differ.
+template <class Use>
+void for_each_difference(const EvaluationTable& table, const Use& use) {
+  for (std::size_t s = 0; s < table.selectors.size(); ++s)
+    if (is_svnet(table.selectors[s]))
+      for (const auto& [baseline, rows] : table.differences)
+        if (baseline != table.selectors[s])
+          for (std::size_t row = 0; row < rows.size(); ++row) use(table.selectors[s], baseline, row, rows[row][s]);
 }
 
 /// SV-net minus each selector to compare with; empty if the table does not have SV-net.
 std::string differences_text(const EvaluationTable& table) {
-  const std::size_t svnet = index_of_svnet(table);
-  if (svnet == table.selectors.size() || table.differences.empty()) return "";
-  std::string text = "SV-net minus another selector, with 95 % intervals over categories:\n";
-  for (const auto& [baseline, rows] : table.differences)
-    for (std::size_t row = 0; row < rows.size(); ++row) {
-      text += "  " + padded("- " + baseline, 14) + padded(row_name(table, row), 22);
-      for (std::size_t m = 0; m < kMetrics.size(); ++m) {
-        const Difference& difference = rows[row][svnet][m];
-        text += padded(
-            std::string(kMetrics[m].title) + " " + signed_number(difference.mean) + interval_text(difference.interval),
-            32);
-      }
-      while (text.back() == ' ') text.pop_back();
-      text += "\n";
-    }
+  std::string text;
+  for_each_difference(table, [&](const std::string& selector, const std::string& baseline, std::size_t row,
+                                 const PerMetric<Difference>& differences) {
+    if (text.empty()) text = "SV-net minus another selector, with 95 % intervals over categories:\n";
+    text += "  " + padded((selector == "svnet" ? "- " : selector + " - ") + baseline, 18) +
+            padded(row_name(table, row), 22);
+    for (std::size_t m = 0; m < kMetrics.size(); ++m)
+      text += padded(std::string(kMetrics[m].title) + " " + signed_number(differences[m].mean) +
+                         interval_text(differences[m].interval),
+                     32);
+    while (text.back() == ' ') text.pop_back();
+    text += "\n";
+  });
   return text;
 }
 
@@ -89,11 +97,17 @@ std::string table_text(const EvaluationTable& table, const std::string& title) {
 
 std::string columns_text(const EvaluationTables& tables) {
   std::string text = "Columns: the views that are clustered.\n";
-  for (const SelectorKind& kind : selector_kinds())
-    if (std::ranges::any_of(tables, [&](const auto& table) {
-          return std::ranges::find(table.second.selectors, kind.name) != table.second.selectors.end();
-        }))
-      text += "  " + padded(kind.name, 12) + kind.help + "\n";
+  const auto has = [&](const std::string& selector) {
+    return std::ranges::any_of(tables, [&](const auto& table) {
+      return std::ranges::find(table.second.selectors, selector) != table.second.selectors.end();
+    });
+  };
+  bool several = false;
+  for (const SelectorKind& kind : selector_kinds()) {
+    if (has(kind.name)) text += "  " + padded(kind.name, 12) + kind.help + "\n";
+    several = several || has(name_with_views(kind.name, 2));
+  }
+  if (several) text += "  " + padded("…_2, …_3", 14) + "the two, three best or random views of each object, fused\n";
   text += "Numbers: how well the clusters agree with the categories, 1 is perfect.\n";
   for (const Metric& metric : kMetrics) text += "  " + padded(metric.title, 12) + metric.help + "\n";
   return text;
@@ -101,15 +115,12 @@ std::string columns_text(const EvaluationTables& tables) {
 
 nlohmann::ordered_json differences_json(const EvaluationTable& table) {
   nlohmann::ordered_json json = nlohmann::ordered_json::object();
-  const std::size_t svnet = index_of_svnet(table);
-  if (svnet == table.selectors.size()) return json;
-  for (const auto& [baseline, rows] : table.differences)
-    for (std::size_t row = 0; row < rows.size(); ++row)
-      for (std::size_t m = 0; m < kMetrics.size(); ++m) {
-        const Difference& difference = rows[row][svnet][m];
-        json[row_name(table, row)]["svnet-" + baseline][kMetrics[m].name] =
-            with_interval(difference.mean, difference.interval);
-      }
+  for_each_difference(table, [&](const std::string& selector, const std::string& baseline, std::size_t row,
+                                 const PerMetric<Difference>& differences) {
+    for (std::size_t m = 0; m < kMetrics.size(); ++m)
+      json[row_name(table, row)][joined(selector, "-", baseline)][kMetrics[m].name] =
+          with_interval(differences[m].mean, differences[m].interval);
+  });
   return json;
 }
 

@@ -13,19 +13,19 @@ namespace svnet::train {
 namespace {
 
 const SelectorKind kSelectors[] = {
-    {"top", "the top view", true, true, [](const SelectorInputs& in) { return top_views(in.dataset); }},
-    {"rand", "a random view, drawn for each problem", true, true,
-     [](const SelectorInputs&) { return std::vector<std::int32_t>(); }},
-    {"broadside", "the view at phi 45 across the object's axis, a fixed rule", false, false,
-     [](const SelectorInputs& in) { return broadside_views(in.dataset, in.frames()); }},
-    {"phi_map", "a view at the elevation with the best mean training score, a fixed rule", false, false,
-     [](const SelectorInputs& in) { return phi_map_views(in.dataset, in.training_scores.individual); }},
-    {"opt_glob", "the view with the best global score", true, false,
-     [](const SelectorInputs& in) { return best_views(in.dataset, in.scores().global); }},
-    {"opt_ind", "the view with the best individual score", true, false,
-     [](const SelectorInputs& in) { return best_views(in.dataset, in.scores().individual); }},
-    {"svnet", "the view with the best score that SV-net predicts", false, true,
-     [](const SelectorInputs& in) { return best_views(in.dataset, in.predicted); }},
+    {"top", "the top view", true, true, false, [](const SelectorInputs& in, Index) { return top_views(in.dataset); }},
+    {"rand", "a random view, drawn for each problem", true, true, true,
+     [](const SelectorInputs&, Index) { return std::vector<std::int32_t>(); }},
+    {"broadside", "the view at phi 45 across the object's axis, a fixed rule", false, false, false,
+     [](const SelectorInputs& in, Index) { return broadside_views(in.dataset, in.frames()); }},
+    {"phi_map", "a view at the elevation with the best mean training score, a fixed rule", false, false, false,
+     [](const SelectorInputs& in, Index) { return phi_map_views(in.dataset, in.training_scores.individual); }},
+    {"opt_glob", "the view with the best global score", true, false, true,
+     [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().global, views); }},
+    {"opt_ind", "the view with the best individual score", true, false, true,
+     [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().individual, views); }},
+    {"svnet", "the view with the best score that SV-net predicts", false, true, true,
+     [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.predicted, views); }},
 };
 
 bool is_default(const SelectorKind& kind, Split split) {
@@ -57,6 +57,20 @@ std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::strin
     kinds.push_back(&kSelectors[at - known.begin()]);
   }
   return kinds;
+}
+
+std::string name_with_views(const std::string& selector, Index views) {
+  return views == 1 ? selector : joined(selector, "_", views);
+}
+
+std::vector<Selector> chosen_by(std::span<const SelectorKind* const> kinds, const SelectorInputs& inputs,
+                                Index most_views) {
+  std::vector<Selector> selectors;
+  for (Index views = 1; views <= most_views; ++views)
+    for (const SelectorKind* kind : kinds)
+      if (views == 1 || kind->several)
+        selectors.push_back({name_with_views(kind->name, views), kind->view(inputs, views), views});
+  return selectors;
 }
 
 std::vector<std::int32_t> top_views(const ViewDataset& dataset) {
@@ -117,18 +131,18 @@ std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<co
   return best_views(dataset, mean);
 }
 
-std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores) {
+std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores, Index count) {
   check(scores.size() == dataset.views.size(), "[evaluation] ", scores.size(), " scores for ", dataset.views.size(),
         " views");
-  std::vector<std::int32_t> views = top_views(dataset);
-  for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
-    const auto& pose = dataset.poses[p];
-    double best = -std::numeric_limits<double>::infinity();
+  std::vector<std::int32_t> views, of_pose;
+  for (const auto& pose : dataset.poses) {
+    of_pose.clear();
     for (Index view = pose.first_view; view < pose.first_view + pose.view_count; ++view)
-      if (scores[static_cast<std::size_t>(view)] > best) {  // false for NaN
-        best = scores[static_cast<std::size_t>(view)];
-        views[p] = static_cast<std::int32_t>(view);
-      }
+      if (!std::isnan(scores[static_cast<std::size_t>(view)])) of_pose.push_back(static_cast<std::int32_t>(view));
+    std::ranges::stable_sort(of_pose, std::ranges::greater(),
+                             [&](std::int32_t view) { return scores[static_cast<std::size_t>(view)]; });
+    if (of_pose.empty()) of_pose.push_back(static_cast<std::int32_t>(pose.top_view));
+    for (Index i = 0; i < count; ++i) views.push_back(of_pose[static_cast<std::size_t>(i) % of_pose.size()]);
   }
   return views;
 }

@@ -11,11 +11,12 @@
 
 namespace svnet::train {
 
-/// Chooses a view of each pose. `view`: per pose of the dataset, the index of the chosen view. Empty: a random view,
-/// drawn for each problem.
+/// Chooses one or more views of each pose. `view`: (poses, views), indices of views of the dataset, the most preferred
+/// first. Empty: random views, drawn for each problem, no two of them the same unless the pose has fewer.
 struct Selector {
   std::string name;
   std::vector<std::int32_t> view;
+  Index views = 1;  ///< of each object
 };
 
 /// Semantic scores of every view; NaN for views of categories that take no part.
@@ -40,7 +41,9 @@ struct SelectorKind {
   const char* name;
   const char* help;               ///< what it chooses, in a few words
   bool of_training, of_held_out;  ///< whether it is a default of the split's table
-  std::vector<std::int32_t> (*view)(const SelectorInputs& inputs);
+  bool several;                   ///< whether it can choose more than one view of an object
+  /// (poses, views), as in Selector.
+  std::vector<std::int32_t> (*view)(const SelectorInputs& inputs, Index views);
 };
 
 /// All selectors. To add one, add an entry to the table in selectors.cpp.
@@ -49,6 +52,11 @@ std::span<const SelectorKind> selector_kinds();
 /// The selectors with these names, in their order. Without names: the defaults of the split's table. Throws Error with
 /// the nearest name if a name is unknown.
 std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::string>& names, Split split);
+
+/// What these selectors choose of one view, then those that can of 2, …, `most_views` views: "svnet", "svnet_2".
+std::vector<Selector> chosen_by(std::span<const SelectorKind* const> kinds, const SelectorInputs& inputs,
+                                Index most_views);
+std::string name_with_views(const std::string& selector, Index views);
 
 /// The top view of each pose.
 std::vector<std::int32_t> top_views(const ViewDataset& dataset);
@@ -61,8 +69,8 @@ std::vector<std::int32_t> broadside_views(const ViewDataset& dataset, std::span<
 /// A view without a score does not count, and each score counts minus the mean of its pose.
 std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<const double> scores);
 
-/// The view of each pose with the highest score; the first among equals. The top view if no view of the pose has a
-/// score.
-std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores);
+/// The `count` views of each pose with the highest scores, best first; the first among equals. If fewer views of the
+/// pose have a score they are repeated in turn; the top view if none has.
+std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores, Index count = 1);
 
 }  // namespace svnet::train

@@ -11,6 +11,7 @@
 #include "nn/optim/schedule.h"
 #include "semantics/cluster_metrics.h"
 #include "semantics/clusterer.h"
+#include "semantics/view_sets.h"
 #include "train/config/choices.h"
 
 namespace svnet::train {
@@ -70,6 +71,8 @@ struct Config {
     Index problems = 10000;
     std::vector<std::string> pipelines;  ///< as pipeline_name.h reads them; parse_config fills an empty list
     std::vector<std::string> selectors;  ///< names of train/selectors.h; empty: the default ones of each table
+    Index views = 1;                     ///< the most views of each object that are compared
+    semantics::Fusion fusion = semantics::Fusion::mean;
     semantics::NmiAverage nmi = semantics::NmiAverage::arithmetic;
   };
 

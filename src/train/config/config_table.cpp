@@ -196,6 +196,12 @@ std::vector<BoundKey> bound_keys(Config& c) {
                 "Pipelines of the tables. Empty: only the pipeline of the scores."),
       names(Stage::evaluation, "evaluation.selectors", c.evaluation.selectors,
             "Selectors of the tables. Empty: the default ones of each table; svnet-eval --help lists all."),
+      later(whole(
+          Stage::evaluation, "evaluation.views", c.evaluation.views, {1, 8},
+          "Compare selectors of up to N views of each object, such as svnet_2: a random view, SV-net and the best "
+          "views.")),
+      later(choice(Stage::evaluation, "evaluation.fusion", c.evaluation.fusion,
+                   "What the views of an object are clustered by: the mean of their features, or all features.")),
       choice(Stage::evaluation, "evaluation.nmi", c.evaluation.nmi,
              "Mean that normalises NMI. The paper's tables use geometric."),
   };

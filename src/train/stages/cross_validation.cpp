@@ -13,6 +13,7 @@
 #include "train/shuffled.h"
 #include "train/stage_times.h"
 #include "train/stages/contact_sheet.h"
+#include "train/stages/evaluation_options.h"
 #include "train/stages/model.h"
 #include "train/stages/pipeline_distances.h"
 #include "train/stages/predictions.h"
@@ -62,7 +63,7 @@ FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& t
       .predicted = choices.predicted,
       .training_scores = training_scores,
       .frames = [&]() -> const std::vector<frame::TopFrame>& { return features.frames(fold.config.sv_net.depth); }};
-  for (const SelectorKind* kind : kinds) choices.selectors.push_back({kind->name, kind->view(inputs)});
+  choices.selectors = chosen_by(kinds, inputs, fold.config.evaluation.views);
   return choices;
 }
 
@@ -70,9 +71,10 @@ FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& t
 void take_held_out(const Run& fold, const std::vector<Selector>& from, std::vector<Selector>& all) {
   for (std::size_t s = 0; s < from.size(); ++s) {
     if (s == all.size()) all.push_back(from[s]);
-    for (std::size_t pose = 0; pose < from[s].view.size(); ++pose)
-      if (fold.held_out[static_cast<std::size_t>(fold.dataset.poses[pose].category)])
-        all[s].view[pose] = from[s].view[pose];
+    const auto views = static_cast<std::size_t>(from[s].views);
+    for (std::size_t i = 0; i < from[s].view.size(); ++i)
+      if (fold.held_out[static_cast<std::size_t>(fold.dataset.poses[i / views].category)])
+        all[s].view[i] = from[s].view[i];
   }
 }
 
@@ -192,9 +194,8 @@ CrossValidation cross_validate(const Run& run, FeaturesStage& features, const st
   result.scores = scores;
 
   PipelineDistances distances(run.config, features);
-  const EvaluationOptions options{.problems = static_cast<std::uint64_t>(run.config.evaluation.problems),
-                                  .seed = run.seed(),
-                                  .nmi = run.config.evaluation.nmi};
+  const EvaluationOptions options =
+      evaluation_options(run.config, static_cast<std::uint64_t>(run.config.evaluation.problems));
   StageTimer timer(run, "evaluation");
   result.table = evaluate(run.dataset, sets, distances.pipelines(), options, Parallel::shared(), run.messages,
                           "evaluation, held-out categories");

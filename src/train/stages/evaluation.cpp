@@ -4,6 +4,7 @@
 #include "io/files/atomic_file.h"
 #include "train/random_problems.h"
 #include "train/stage_times.h"
+#include "train/stages/evaluation_options.h"
 #include "train/stages/held_out_scores.h"
 #include "train/stages/pipeline_distances.h"
 
@@ -11,10 +12,7 @@ namespace svnet::train {
 namespace {
 
 std::vector<Selector> selectors(const Run& run, Split split, const SelectorInputs& inputs) {
-  std::vector<Selector> selectors;
-  for (const SelectorKind* kind : selectors_of_table(run.config.evaluation.selectors, split))
-    selectors.push_back({kind->name, kind->view(inputs)});
-  return selectors;
+  return chosen_by(selectors_of_table(run.config.evaluation.selectors, split), inputs, run.config.evaluation.views);
 }
 
 }  // namespace
@@ -24,7 +22,7 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
   StageTimer timer(run, "evaluation");
   PipelineDistances distances(run.config, inputs.features);
   const std::vector<EvaluationPipeline> pipelines = distances.pipelines();
-  const EvaluationOptions options{.problems = problems, .seed = run.seed(), .nmi = run.config.evaluation.nmi};
+  const EvaluationOptions options = evaluation_options(run.config, problems);
   const auto table = [&](const std::vector<bool>& excluded, const std::vector<Selector>& selectors,
                          const std::string& task) {
     return evaluate(run.dataset, {{clustering_problems(run.dataset, excluded, run.config.scores), selectors}},

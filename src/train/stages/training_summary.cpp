@@ -66,7 +66,7 @@ std::vector<std::string> training_summary(const Run& run, FeaturesStage& feature
        selectors_of_table({"svnet", "broadside", "phi_map", "top", "rand", best}, Split::training)) {
     char line[160];
     std::snprintf(line, sizeof line, "  %-10s %.3f  %s", kind->name,
-                  mean_score(run, target, validated ? use.validate : use.learnt, kind->view(inputs)), kind->help);
+                  mean_score(run, target, validated ? use.validate : use.learnt, kind->view(inputs, 1)), kind->help);
     lines.emplace_back(line);
   }
   return lines;

@@ -1,0 +1,16 @@
+#include "train/stages/evaluation_options.h"
+
+namespace svnet::train {
+
+EvaluationOptions evaluation_options(const Config& config, std::uint64_t problems) {
+  EvaluationOptions options{.problems = problems,
+                            .seed = static_cast<std::uint64_t>(config.seed),
+                            .nmi = config.evaluation.nmi,
+                            .fusion = config.evaluation.fusion};
+  if (config.evaluation.views > 1) options.baselines.emplace_back("svnet");
+  for (Index views = 2; views <= config.evaluation.views; ++views)
+    options.baselines.push_back(name_with_views("rand", views));
+  return options;
+}
+
+}  // namespace svnet::train
