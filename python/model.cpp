@@ -76,14 +76,15 @@ Raises svnet.Error as score does.
 constexpr const char* kBestViewsDoc = R"(best_views(self, image, angles_deg, k, min_angle_deg=0, depth=None)
 --
 
-Up to k camera poses that differ: the best first, then each time the best of those that are far enough from all that
-were chosen.
+Up to k camera poses to take together, chosen one after the other: the best first, then each time the one with the highest
+score + s * min(a, 90) / 90, where a is the angle in degrees to the nearest pose that was chosen and s the standard
+deviation of all scores.
 
 image, angles_deg, depth : as for score
 k : integer >= 1
 min_angle_deg : the least angle between the viewing directions of two chosen poses, along the great circle, in [0, 180]
     degrees; up to 1e-4 degrees less count as enough
-Returns (indices, scores): (F,) int64 and (F,) float32, best first; F < k if no other pose differs enough.
+Returns (indices, scores): (F,) int64 and (F,) float32, in the order of the choice; F < k if no other pose differs enough.
 Raises svnet.Error as score does, and for a k or an angle that is out of range.
 )";
 

@@ -149,13 +149,14 @@ int main(int argc, char** argv) {
       .add_flag("--grid", grid, "The paper's candidates: theta every 45 but 270, phi 45, 60, 75; and the top (default)")
       .excludes(poses_option);
   command
-      .add("--best", a.best,
-           "Prints only the K best poses that differ by --min-angle; with --json, best_views has them")
+      .add("--views,--best", a.best,
+           "Prints only K poses to take together, each judged by its score and by how far it is from the others; with "
+           "--json, best_views has them")
       .value_name("K")
       .positive();
   command
       .add("--min-angle", a.min_angle_deg,
-           "The least angle between two of the best poses, in degrees: 0 to 180, between viewing directions")
+           "The least angle between two of the poses of --views, in degrees: 0 to 180, between viewing directions")
       .value_name("DEG")
       .shows_default();
   command
@@ -165,7 +166,7 @@ int main(int argc, char** argv) {
       .shows_default();
   command.add_flag(
       "--json", a.json,
-      "Prints JSON: best; best_views, of --best and --min-angle; margin_over_top, the best score minus that of the "
+      "Prints JSON: best; best_views, of --views and --min-angle; margin_over_top, the best score minus that of the "
       "top view; views with theta_deg, phi_deg, score, best first; and top_view: how far its shape is "
       "from those that the model was trained on (distance, limit), and the share that it counts (trust). For a folder, "
       "images: a list of these with the name of the image");

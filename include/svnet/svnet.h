@@ -127,9 +127,11 @@ SVNET_API svnet_status svnet_score(const svnet_model* model, const float* featur
 SVNET_API svnet_status svnet_best_view(const svnet_model* model, const float* features, const double* poses_deg,
                                        size_t count, size_t* best, float* score);
 
-/* Finds up to k poses that differ: the best first, then each time the best of those that are at least min_angle_deg
- * degrees, in [0, 180], away from all that were found (the angle between two viewing directions, along the great
- * circle; up to 1e-4 degrees less count as enough); the first one in a tie. `indices` receives them, best first, and
+/* Finds up to k poses to take together, one after the other: the best first, then each time the one with the highest
+ * score + s * min(a, 90) / 90, where a is the angle in degrees to the nearest pose that was found (between viewing
+ * directions, along the great circle) and s the standard deviation of all scores; the first one in a tie. Two of them
+ * are at least min_angle_deg degrees apart, in [0, 180]; up to 1e-4 degrees less count as enough. With the mean of their
+ * features, objects are told apart better than with that of the k best poses. `indices` receives them in this order, and
  * `scores`, if not NULL, their scores; both have room for the smaller of k and count. `found` receives their number, at
  * least 1: less than k if no other pose differs enough. k and count must be at least 1. */
 SVNET_API svnet_status svnet_best_views(const svnet_model* model, const float* features, const double* poses_deg,

@@ -80,7 +80,7 @@ void write_best_views(const char* function, const svnet_model* model, const floa
   check_some(function, poses);
   score(function, model, features, poses, buffers);
   buffers.chosen.resize(std::min(most, poses.count));
-  *found = predict::best_views(buffers.scores, buffers.poses, min_angle_deg, buffers.chosen);
+  *found = predict::best_views(buffers.scores, buffers.poses, min_angle_deg, buffers.chosen, buffers.nearest);
   for (std::size_t i = 0; i < *found; ++i) {
     indices[i] = buffers.chosen[i];
     if (scores != nullptr) scores[i] = buffers.scores[buffers.chosen[i]];

@@ -19,6 +19,7 @@ struct CallBuffers {
   std::vector<float> features{}, scores{};
   std::vector<view::CameraPose> poses{};
   std::vector<std::size_t> chosen{};
+  std::vector<double> nearest{};
   predict::Workspace workspace{};
 };
 

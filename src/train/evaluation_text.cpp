@@ -37,17 +37,29 @@ std::string row_name(const EvaluationTable& table, std::size_t row) {
   return row < table.pipelines.size() ? table.pipelines[row] : "mean";
 }
 
-bool is_svnet(const std::string& selector) { return selector == "svnet" || selector.starts_with("svnet_"); }
+/// The number of views of a selector that may be SV-net's: 1 of "svnet", 2 of "svnet_2"; 0 of others.
+Index views_of_svnet(const std::string& selector) {
+  if (selector == "svnet") return 1;
+  for (Index views = 2; views <= kMostViews; ++views)
+    if (selector == name_with_views("svnet", views)) return views;
+  return 0;
+}
 
-/// The selectors to compare with others: SV-net, with each number of views. Calls use(selector, baseline, row,
-/// differences per metric) for each that differ.
+/// Several views are compared with one view of SV-net, with as many random ones, and with the top view; one view with
+/// all others.
+bool is_compared(const std::string& selector, const std::string& baseline) {
+  const Index views = views_of_svnet(selector);
+  if (views <= 1) return views == 1 && !baseline.starts_with("rand_") && baseline != "svnet";
+  return baseline == "svnet" || baseline == "top" || baseline == name_with_views("rand", views);
+}
+
+/// Calls use(selector, baseline, row, differences per metric) for each of SV-net's selectors and baselines.
 template <class Use>
 void for_each_difference(const EvaluationTable& table, const Use& use) {
   for (std::size_t s = 0; s < table.selectors.size(); ++s)
-    if (is_svnet(table.selectors[s]))
-      for (const auto& [baseline, rows] : table.differences)
-        if (baseline != table.selectors[s])
-          for (std::size_t row = 0; row < rows.size(); ++row) use(table.selectors[s], baseline, row, rows[row][s]);
+    for (const auto& [baseline, rows] : table.differences)
+      if (is_compared(table.selectors[s], baseline))
+        for (std::size_t row = 0; row < rows.size(); ++row) use(table.selectors[s], baseline, row, rows[row][s]);
 }
 
 /// SV-net minus each selector to compare with; empty if the table does not have SV-net.

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "view/view_set.h"
 
 namespace svnet::train {
 namespace {
@@ -25,7 +26,7 @@ const SelectorKind kSelectors[] = {
     {"opt_ind", "the view with the best individual score", true, false, true,
      [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().individual, views); }},
     {"svnet", "the view with the best score that SV-net predicts", false, true, true,
-     [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.predicted, views); }},
+     [](const SelectorInputs& in, Index views) { return view_sets(in.dataset, in.predicted, views); }},
 };
 
 bool is_default(const SelectorKind& kind, Split split) {
@@ -143,6 +144,26 @@ std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const
                              [&](std::int32_t view) { return scores[static_cast<std::size_t>(view)]; });
     if (of_pose.empty()) of_pose.push_back(static_cast<std::int32_t>(pose.top_view));
     for (Index i = 0; i < count; ++i) views.push_back(of_pose[static_cast<std::size_t>(i) % of_pose.size()]);
+  }
+  return views;
+}
+
+std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const double> scores, Index count) {
+  std::vector<std::int32_t> views = best_views(dataset, scores, count);
+  std::vector<view::CameraPose> poses;
+  std::vector<std::size_t> chosen(static_cast<std::size_t>(count));
+  std::vector<double> nearest;
+  for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
+    const auto& pose = dataset.poses[p];
+    poses.clear();
+    for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
+      const View& view = dataset.views[static_cast<std::size_t>(v)];
+      poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
+    }
+    const std::size_t found = choose_view_set(
+        poses, [&](std::size_t i) { return scores[static_cast<std::size_t>(pose.first_view) + i]; }, {}, chosen, nearest);
+    for (std::size_t i = 0; i < chosen.size() && found > 0; ++i)
+      views[p * chosen.size() + i] = static_cast<std::int32_t>(pose.first_view + static_cast<Index>(chosen[i % found]));
   }
   return views;
 }

@@ -56,6 +56,7 @@ std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::strin
 /// What these selectors choose of one view, then those that can of 2, …, `most_views` views: "svnet", "svnet_2".
 std::vector<Selector> chosen_by(std::span<const SelectorKind* const> kinds, const SelectorInputs& inputs,
                                 Index most_views);
+inline constexpr Index kMostViews = 8;
 std::string name_with_views(const std::string& selector, Index views);
 
 /// The top view of each pose.
@@ -72,5 +73,9 @@ std::vector<std::int32_t> phi_map_views(const ViewDataset& dataset, std::span<co
 /// The `count` views of each pose with the highest scores, best first; the first among equals. If fewer views of the
 /// pose have a score they are repeated in turn; the top view if none has.
 std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const double> scores, Index count = 1);
+
+/// `count` views of each pose to take together, each judged beside those already chosen (view/view_set.h), otherwise as
+/// best_views. For one view they are the same.
+std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const double> scores, Index count);
 
 }  // namespace svnet::train

@@ -1,5 +1,6 @@
 #include "predict/view_choice.h"
 
+#include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -12,15 +13,27 @@ using svnet::view::CameraPose;
 
 namespace {
 
-/// By the definition: sorted, then each pose that is far enough from all before it.
+/// By the definition: each time the best sum of score and distance, far enough from all before it.
 std::vector<std::size_t> chosen_by_definition(const std::vector<float>& scores, const std::vector<CameraPose>& poses,
                                               std::size_t most, double min_angle_deg) {
+  double mean = 0, deviation = 0;
+  for (const float score : scores) mean += score / static_cast<double>(scores.size());
+  for (const float score : scores) deviation += (score - mean) * (score - mean) / static_cast<double>(scores.size());
+  deviation = std::sqrt(deviation);
   std::vector<std::size_t> chosen;
-  for (const std::size_t i : best_first(scores)) {
-    bool differs = chosen.size() < most;
-    for (const std::size_t other : chosen)
-      differs = differs && view::angle_between_deg(poses[i], poses[other]) >= min_angle_deg - 1e-4;
-    if (differs) chosen.push_back(i);
+  while (chosen.size() < most) {
+    std::size_t best = poses.size();
+    double highest = -1e9;
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      if (std::ranges::find(chosen, i) != chosen.end()) continue;
+      double nearest = 180;
+      for (const std::size_t other : chosen)
+        nearest = std::min(nearest, view::angle_between_deg(poses[i], poses[other]));
+      const double value = scores[i] + (chosen.empty() ? 0 : deviation * std::min(nearest, 90.0) / 90);
+      if (nearest >= min_angle_deg - 1e-4 && value > highest + 1e-12) highest = value, best = i;
+    }
+    if (best == poses.size()) break;
+    chosen.push_back(best);
   }
   return chosen;
 }
@@ -57,7 +70,7 @@ TEST_CASE("choices without poses, room or a possible angle are refused") {
   const std::vector<CameraPose> poses{{0, 0}};
   const std::vector<float> scores{0.5f};
   CHECK_THROWS_WITH(best_views({}, {}, 10, one), "[predict] there is no pose to choose from");
-  CHECK_THROWS_WITH(best_views(scores, poses, 10, {}), "[predict] 0 views are to be chosen, expected at least one");
+  CHECK_THROWS_WITH(best_views(scores, poses, 10, {}), "[views] 0 views are to be chosen, expected at least one");
   CHECK_THROWS_WITH(best_views(scores, poses, -1, one),
-                    "[predict] the views are to differ by -1 degrees, expected 0 to 180");
+                    "[views] the views are to differ by -1 degrees, expected 0 to 180");
 }

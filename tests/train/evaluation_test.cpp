@@ -67,6 +67,50 @@ TEST_CASE("a selector of the informative views clusters perfectly, and tables do
   CHECK(table_text(table, "Training").find("line_ward") != std::string::npos);
 }
 
+TEST_CASE("several views of an object are clustered by their fused features") {
+  // Two poses of each of three objects would be told apart by the mean of both views, not by one of them: the views of
+  // object c are at 10 c - a and 10 c + a with another a for each pose.
+  ViewDataset dataset;
+  dataset.categories = {"a", "b", "c"};
+  std::vector<std::int64_t> category, object, pose;
+  std::vector<float> features;
+  for (Index p = 0; p < 6; ++p) {
+    dataset.poses.push_back({"1", p, p / 2, 2 * p, 2, 2 * p});
+    for (Index v = 0; v < 2; ++v) {
+      dataset.views.push_back({"", p / 2, p, p, v == 0 ? 90 : 45, v == 0 ? 90 : 0, v == 0});
+      const float a = 9.0f * static_cast<float>(p % 2 == 0 ? 1 : -1);
+      features.push_back(10 * static_cast<float>(p / 2) + (v == 0 ? a : -a) + 0.1f * static_cast<float>(p % 2));
+      category.push_back(p / 2), object.push_back(p), pose.push_back(p);
+    }
+  }
+  Parallel two(2), five(5);
+  const auto distances = squared_distances(features.data(), 12, 1, two);
+  const ClusteringProblems problems(category, object, pose, {});
+  const std::vector<EvaluationPipeline> pipelines{{"line_ward", &distances, {.dimension = 1}}};
+  std::vector<std::int32_t> both;
+  for (std::int32_t v = 0; v < 12; ++v) both.push_back(v);
+  const std::vector<Selector> selectors{{"top", top_views(dataset)},
+                                        {"rand", {}},
+                                        {"rand_2", {}, 2},
+                                        {"svnet", top_views(dataset)},
+                                        {"svnet_2", both, 2}};
+  const EvaluationOptions options{.problems = 300, .baselines = {"top", "svnet", "rand_2"}};
+  const auto table = evaluate(dataset, {{problems, selectors}}, pipelines, options, two, {}, "");
+  const auto same = evaluate(dataset, {{problems, selectors}}, pipelines, options, five, {}, "");
+  for (std::size_t s = 0; s < selectors.size(); ++s) CHECK(table.cells[0][s][0].mean == same.cells[0][s][0].mean);
+  CHECK(table.cells[0][0][2].mean < 0.95);
+  CHECK(table.cells[0][2][2].mean == 1);  // both views of each object, in any order
+  CHECK(table.cells[0][4][2].mean == 1);
+
+  const auto json = differences_json(table).at("line_ward");
+  CHECK(json.contains("svnet-top"));
+  CHECK(json.contains("svnet_2-svnet"));
+  CHECK(json.contains("svnet_2-rand_2"));
+  CHECK_FALSE(json.contains("svnet-rand_2"));
+  CHECK_FALSE(json.contains("svnet-svnet"));
+  CHECK(json.at("svnet_2-top").at("purity").at("mean").get<double>() > 0.05);
+}
+
 namespace {
 
 /// A table of two pipelines, in which SV-net knows the informative views.

@@ -87,6 +87,23 @@ TEST_CASE("phi_map takes the first view of equal ones, and top views if there ar
   CHECK(phi_map_views(dataset, std::vector(6, std::nan(""))) == std::vector<std::int32_t>{2, 5});
 }
 
+TEST_CASE("of several views, those with the best scores are taken, and SV-net's also differ") {
+  const ViewDataset dataset = dataset_of({kViews});
+  std::vector<double> scores(dataset.views.size(), 0.0);
+  const double nan = std::nan("");
+  scores[1] = 0.8, scores[2] = 0.9;
+  CHECK(best_views(dataset, scores, 2) == std::vector<std::int32_t>{2, 1});
+  CHECK(view_sets(dataset, scores, 1) == std::vector<std::int32_t>{2});
+  CHECK(view_sets(dataset, scores, 2)[0] == 2);
+  scores.assign(scores.size(), nan);
+  scores[3] = 0.5;
+  CHECK(best_views(dataset, scores, 3) == std::vector<std::int32_t>{3, 3, 3});
+  CHECK(view_sets(dataset, scores, 2) == std::vector<std::int32_t>{3, 3});
+  scores[3] = nan;
+  CHECK(best_views(dataset, scores, 2) == std::vector<std::int32_t>(2, top_views(dataset)[0]));
+  CHECK(view_sets(dataset, scores, 2) == std::vector<std::int32_t>(2, top_views(dataset)[0]));
+}
+
 TEST_CASE("the rules are selectors that a configuration names") {
   const auto kinds = selectors_of_table({"broadside", "phi_map"}, Split::held_out);
   REQUIRE(kinds.size() == 2);
@@ -100,8 +117,8 @@ TEST_CASE("the rules are selectors that a configuration names") {
                               .predicted = predicted,
                               .training_scores = scores,
                               .frames = [&]() -> const std::vector<frame::TopFrame>& { return frames; }};
-  CHECK(kinds[0]->view(inputs) == std::vector<std::int32_t>{2});
-  CHECK(kinds[1]->view(inputs) == std::vector<std::int32_t>{4});
+  CHECK(kinds[0]->view(inputs, 1) == std::vector<std::int32_t>{2});
+  CHECK(kinds[1]->view(inputs, 1) == std::vector<std::int32_t>{4});
   CHECK_THROWS_WITH(selectors_of_table({"broadsides"}, Split::held_out),
                     "evaluation.selectors: there is no selector 'broadsides', did you mean 'broadside'?");
 }
