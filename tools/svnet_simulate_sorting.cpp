@@ -140,7 +140,8 @@ int main(int argc, char** argv) {
       "An object is right if its category has the most objects in its bin, and no other bin has more objects of this "
       "category. A move takes 1.5 s and its angle at 60 degrees per second; the way between objects is not counted. "
       "Selectors: top; rand; broadside, phi 45 across the object's axis; svnet and svnet_2, one and two views that the "
-      "model chooses; opt, the best view by its semantic score, which needs all views and their categories: a limit.",
+      "model chooses; top_svnet, the top view and that of svnet; opt, the best view by its semantic score, which needs "
+      "all views and their categories: a limit.",
       "svnet-simulate-sorting\n"
       "svnet-simulate-sorting photos --model runs/mine/model.safetensors --picture table.png\n"
       "svnet-simulate-sorting photos --backbone mobilenet_v2 --weights mobilenet_v2.h5 --objects 10 --json -");
@@ -183,8 +184,8 @@ int main(int argc, char** argv) {
   command
       .add("--picture", a.picture,
            "Writes a PNG image of the first table: the objects from above, and the bins by top and by svnet (opt "
-           "without a model), with the chosen views. Frames have the colours of categories; wrong objects are crossed "
-           "out")
+           "without a model), with the chosen views. Frames have the colours of categories; wrong objects have a "
+           "cross")
       .value_name("FILE");
   command.add_precision();
   return command.run(argc, argv, [&](Console& console) {

@@ -72,7 +72,12 @@ std::vector<train::Selector> view_selectors(const ViewDataset& dataset, std::spa
   std::vector<train::Selector> selectors{
       {"top", train::top_views(dataset)}, {"rand", {}}, {"broadside", train::broadside_views(dataset, frames)}};
   if (!predicted.empty()) {
-    selectors.push_back({"svnet", train::best_views(dataset, predicted)});
+    const std::vector<std::int32_t> best = train::best_views(dataset, predicted);
+    train::Selector both{"top_svnet", {}, 2};
+    for (std::size_t pose = 0; pose < best.size(); ++pose)
+      both.view.insert(both.view.end(), {static_cast<std::int32_t>(dataset.poses[pose].top_view), best[pose]});
+    selectors.push_back({"svnet", best});
+    selectors.push_back(std::move(both));
     selectors.push_back({train::name_with_views("svnet", 2), train::view_sets(dataset, predicted, 2), 2});
   }
   selectors.push_back(

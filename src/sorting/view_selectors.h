@@ -20,9 +20,11 @@ std::vector<double> predicted_scores(const ViewDataset& dataset, const predict::
 ///   top        the top view
 ///   rand       a random view
 ///   broadside  the view at phi 45 across the object's axis, a fixed rule
-///   svnet, svnet_2  the best view, and the best two to take together, by `predicted`; only if it is not empty
+///   svnet      the view with the best score of `predicted`
+///   top_svnet  the top view and that view, for no more moves
+///   svnet_2    the two views to take together, by `predicted`
 ///   opt        the limit: the view with the best semantic score, of kOptProblems problems of the dataset's categories
-/// `features`: (views, dimension).
+/// Those of svnet only if `predicted` is not empty. `features`: (views, dimension).
 std::vector<train::Selector> view_selectors(const ViewDataset& dataset, std::span<const float> features,
                                             std::span<const double> predicted, std::uint64_t seed,
                                             const Messages& messages, Parallel& parallel);

@@ -42,7 +42,7 @@ Json categories_of(const SimulationReport& report, const sorting::Table& table) 
 std::string simulation_text(const SimulationReport& report) {
   std::string text =
       joined(report.options.tables, report.options.tables == 1 ? " table" : " tables", " of ", report.options.objects,
-             " objects, of ", report.dataset.categories.size(), " categories; means of a table\n");
+             " objects, from ", report.dataset.categories.size(), " categories; means of a table\n");
   text += formatted("%-10s %13s %8s %9s   %s\n", "views", "in wrong bins", "moves", "seconds",
                     "fewer wrong than top (95 %)");
   for (std::size_t s = 0; s < report.selectors.size(); ++s) {

@@ -1,6 +1,7 @@
 #include "simulate_sorting/table_picture.h"
 
 #include <algorithm>
+#include <array>
 #include <opencv2/imgproc.hpp>
 
 #include "base/error.h"
@@ -30,7 +31,8 @@ class TablePicture {
   }
 
   /// A group per bin.
-  void add_bins(std::size_t selector, std::vector<FramedGroup>& groups) const {
+  std::vector<FramedGroup> bins(std::size_t selector) const {
+    std::vector<FramedGroup> groups;
     const sorting::Outcome& outcome = report_.tables[0].outcomes[selector];
     const auto views = static_cast<std::size_t>(report_.selectors[selector].views);
     const std::int32_t bins = std::ranges::max(outcome.bins) + 1;
@@ -49,6 +51,7 @@ class TablePicture {
                                     " objects in wrong bins with ", report_.selectors[selector].name, ")");
       groups.push_back(std::move(group));
     }
+    return groups;
   }
 
  private:
@@ -84,13 +87,13 @@ class TablePicture {
     return square;
   }
 
+  /// A cross in the upper right corner.
   static void cross_out(cv::Mat3b& pixels) {
-    constexpr int kInset_px = 2 * kBorder_px;
-    const int last = pixels.cols - 1 - kInset_px;
-    for (const auto& [colour, width] :
-         {std::pair{cv::Scalar(255, 255, 255), 6}, std::pair{cv::Scalar(20, 20, 20), 2}}) {
-      cv::line(pixels, {kInset_px, kInset_px}, {last, last}, colour, width, cv::LINE_AA);
-      cv::line(pixels, {kInset_px, last}, {last, kInset_px}, colour, width, cv::LINE_AA);
+    constexpr int kSide_px = 22, kInset_px = kBorder_px + 4;
+    const int right = pixels.cols - 1 - kInset_px, left = right - kSide_px, top = kInset_px, bottom = top + kSide_px;
+    for (const auto& [colour, width] : {std::pair{cv::Scalar(255, 255, 255), 9}, std::pair{cv::Scalar(220, 0, 0), 4}}) {
+      cv::line(pixels, {left, top}, {right, bottom}, colour, width, cv::LINE_AA);
+      cv::line(pixels, {left, bottom}, {right, top}, colour, width, cv::LINE_AA);
     }
   }
 
@@ -102,12 +105,32 @@ class TablePicture {
 
 Image table_picture(const SimulationReport& report, const std::vector<std::size_t>& selectors) {
   constexpr SheetLayout kLayout{.cell = kThumbnail_px, .gap = 8, .margin = 20, .text = 18, .font_size = 0.42};
+  constexpr Index kColumns = 6;  // of the bins
   check(!report.tables.empty(), "[simulation] there are no tables");
   const TablePicture picture(report);
-  std::vector<FramedGroup> groups{picture.from_above()};
-  for (const std::size_t selector : selectors) picture.add_bins(selector, groups);
-  const auto objects = static_cast<Index>(report.tables[0].table.poses.size());
-  return framed_sheet(groups, std::min<Index>(objects, 12), kLayout);
+  const FramedGroup table = picture.from_above();
+  const Image above = framed_sheet(std::span(&table, 1), kColumns * std::ssize(selectors), kLayout);
+  std::vector<Image> columns;
+  Index height = 0, width = 0;
+  for (const std::size_t selector : selectors) {
+    columns.push_back(framed_sheet(picture.bins(selector), kColumns, kLayout));
+    height = std::max(height, columns.back().height);
+    width += columns.back().width;
+  }
+  Image sheet{above.height + height, std::max(above.width, width), {}};
+  sheet.rgb.assign(static_cast<std::size_t>(3 * sheet.height * sheet.width), 255);
+  cv::Mat3b pixels = matrix_of(sheet);
+  const auto paste = [&](const Image& part, Index x, Index y) {
+    matrix_of(part).copyTo(pixels(cv::Rect(static_cast<int>(x), static_cast<int>(y), static_cast<int>(part.width),
+                                           static_cast<int>(part.height))));
+  };
+  paste(above, 0, 0);
+  Index x = 0;
+  for (const Image& column : columns) {
+    paste(column, x, above.height);
+    x += column.width;
+  }
+  return sheet;
 }
 
 }  // namespace svnet
