@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
@@ -30,55 +31,69 @@ constexpr HeightRule height_rule(Linkage linkage) {
   return {1, 0};
 }
 
-/// The sum of distances from each item to each cluster while clusters are merged. A cluster is in the column of the
-/// first item that it was made from.
+/// The sum of distances from each item to each cluster while clusters are merged. A cluster has a column; the columns
+/// that are in use come first.
 class ClusterSums {
  public:
-  explicit ClusterSums(const DistanceMatrix& distances) : n_(distances.size()) {
-    const auto n = static_cast<std::size_t>(n_);
-    sums_.resize(n * n);
-    size_.assign(n, 1);
+  explicit ClusterSums(const DistanceMatrix& distances)
+      : n_(distances.size()), columns_(n_), sums_(static_cast<std::size_t>(n_ * n_)) {
     for (Index i = 0; i < n_; ++i) {
-      active_.push_back(i);
+      size_.push_back(1);
+      cluster_of_column_.push_back(i);
       column_of_item_.push_back(i);
       column_of_cluster_.push_back(i);
-      for (Index j = 0; j < n_; ++j) sum(i, j) = std::sqrt(static_cast<double>(distances(i, j)));
+      for (Index j = 0; j < n_; ++j) sums_of(i)[j] = std::sqrt(static_cast<double>(distances(i, j)));
     }
   }
 
   void merge(const Merge& merge) {
-    const Index a = column_of_cluster_[static_cast<std::size_t>(merge.a)];
-    const Index b = column_of_cluster_[static_cast<std::size_t>(merge.b)];
-    for (Index i = 0; i < n_; ++i) sum(i, a) += sum(i, b);
-    size_[static_cast<std::size_t>(a)] += size_[static_cast<std::size_t>(b)];
-    std::erase(active_, b);
-    std::ranges::replace(column_of_item_, b, a);
+    const Index a = std::min(column_of(merge.a), column_of(merge.b)),
+                b = std::max(column_of(merge.a), column_of(merge.b));
+    const Index last = --columns_;
+    for (Index i = 0; i < n_; ++i) {
+      double* sums = sums_of(i);
+      sums[a] += sums[b];
+      sums[b] = sums[last];
+      Index& column = column_of_item_[static_cast<std::size_t>(i)];
+      column = column == b ? a : column == last ? b : column;
+    }
+    size(a) += size(b);
+    size(b) = size(last);
+    const Index moved = cluster_of_column_[static_cast<std::size_t>(last)];
+    cluster_of_column_[static_cast<std::size_t>(b)] = moved;
+    column_of_cluster_[static_cast<std::size_t>(moved)] = b;
+    cluster_of_column_[static_cast<std::size_t>(a)] = static_cast<Index>(column_of_cluster_.size());
     column_of_cluster_.push_back(a);
   }
 
-  double mean_silhouette() const {
-    double total = 0;
-    for (Index i = 0; i < n_; ++i) {
-      const Index own = column_of_item_[static_cast<std::size_t>(i)];
-      const double others = size_[static_cast<std::size_t>(own)] - 1;
-      if (others == 0) continue;
-      const double within = sum(i, own) / others;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Index column : active_)
-        if (column != own) nearest = std::min(nearest, sum(i, column) / size_[static_cast<std::size_t>(column)]);
-      const double larger = std::max(within, nearest);
-      if (larger > 0) total += (nearest - within) / larger;
-    }
-    return total / static_cast<double>(n_);
+  double mean_silhouette() {
+    std::vector<double> inverse, silhouette(static_cast<std::size_t>(n_));
+    for (Index c = 0; c < columns_; ++c) inverse.push_back(1 / size(c));
+    Parallel::shared().for_chunks(n_, 64, [&](Index begin, Index end, int) {
+      for (Index i = begin; i < end; ++i) silhouette[static_cast<std::size_t>(i)] = silhouette_of(i, inverse.data());
+    });
+    return std::accumulate(silhouette.begin(), silhouette.end(), 0.0) / static_cast<double>(n_);
   }
 
  private:
-  double& sum(Index item, Index column) { return sums_[static_cast<std::size_t>(item * n_ + column)]; }
-  double sum(Index item, Index column) const { return sums_[static_cast<std::size_t>(item * n_ + column)]; }
+  double silhouette_of(Index item, const double* inverse_size) {
+    const Index own = column_of_item_[static_cast<std::size_t>(item)];
+    const double others = size(own) - 1, *sums = sums_of(item);
+    if (others == 0) return 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index c = 0; c < own; ++c) nearest = std::min(nearest, sums[c] * inverse_size[c]);
+    for (Index c = own + 1; c < columns_; ++c) nearest = std::min(nearest, sums[c] * inverse_size[c]);
+    const double within = sums[own] / others, larger = std::max(within, nearest);
+    return larger > 0 ? (nearest - within) / larger : 0;
+  }
 
-  Index n_;
-  std::vector<double> sums_{}, size_{};
-  std::vector<Index> active_{}, column_of_item_{}, column_of_cluster_{};
+  double* sums_of(Index item) { return sums_.data() + item * n_; }
+  double& size(Index column) { return size_[static_cast<std::size_t>(column)]; }
+  Index column_of(std::int32_t cluster) const { return column_of_cluster_[static_cast<std::size_t>(cluster)]; }
+
+  Index n_, columns_;
+  std::vector<double> sums_, size_{};
+  std::vector<Index> cluster_of_column_{}, column_of_item_{}, column_of_cluster_{};
 };
 
 Index by_silhouette(const Dendrogram& history, const DistanceMatrix& distances) {
