@@ -75,7 +75,7 @@ Estimates into how many groups items fall, by their dendrogram.
 Parameters
 ----------
 features : (N, D) array of integers or floats, any strides
-method : "height": one group per part above a height that depends on the mean distance and on N. "silhouette": the
+method : "height": the cut at a height between the mean distance of two items and the last merge. "silhouette": the
     number from 2 to N - 1 with the largest mean silhouette. "gap": the cut in the largest gap between two heights.
 linkage : "ward", "average", "complete" or "single", of Euclidean distances
 

@@ -151,6 +151,14 @@ SVNET_API svnet_status svnet_margin(const svnet_model* model, const float* featu
 SVNET_API svnet_status svnet_grid(int32_t theta_steps, int32_t phi_steps, double lowest_phi_deg, double highest_phi_deg,
                                   double* poses_deg, size_t capacity, size_t* count);
 
+/* Puts `rows` items into groups of like items, by Ward's agglomerative clustering. `features`: rows * columns finite
+ * floats, the features of one item after the other, such as those of svnet_embed or of any network; no model is needed.
+ * For an item that was seen several times, pass the mean of its features. `groups`: the number of groups, up to rows;
+ * 0: it is estimated, as 1 only if all items are equal. `labels` receives the group of each item, numbered from 0 in
+ * order of first appearance; `count`, if not NULL, the number of groups. rows: 1 to 65535; needs 8 rows^2 bytes. */
+SVNET_API svnet_status svnet_group(const float* features, size_t rows, size_t columns, size_t groups, int32_t* labels,
+                                   size_t* count);
+
 /* Makes a context: memory for calls with `model`, which must live longer. One thread at a time uses a context; several
  * contexts share a model. The functions below give the results of those above. They keep what they need: after a first
  * call with an image, and with poses, of a size, calls with images and as many poses of that size allocate no memory

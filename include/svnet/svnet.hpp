@@ -91,6 +91,25 @@ inline std::vector<CameraPose> pose_grid(const GridSpec& spec) {
   return poses;
 }
 
+// Items in groups: the group of each, numbered from 0, and how many groups there are.
+struct Groups {
+  std::vector<std::int32_t> labels;
+  std::size_t count;
+};
+
+// Puts `rows` items into groups of like items: svnet_group. `features` has as many floats for each item, one item after
+// the other. groups 0: their number is estimated.
+inline Groups group(const std::vector<float>& features, std::size_t rows, std::size_t groups = 0) {
+  if (rows == 0 || features.size() % rows != 0)
+    throw StatusError(SVNET_INVALID_ARGUMENT, "there are " + std::to_string(features.size()) +
+                                                  " features, which is no " + "whole number for each of " +
+                                                  std::to_string(rows) + " rows");
+  Groups result{std::vector<std::int32_t>(rows), 0};
+  detail::check(
+      svnet_group(features.data(), rows, features.size() / rows, groups, result.labels.data(), &result.count));
+  return result;
+}
+
 // A trained model; movable, not copyable. All functions throw StatusError or std::bad_alloc if svnet.h fails.
 class ViewModel {
  public:

@@ -93,8 +93,13 @@ std::string fitted_text(const std::string& text, Index width, double font_size) 
     return cv::getTextSize(part, kFont, font_size, 1, nullptr).width <= static_cast<int>(width);
   };
   if (fits(shown)) return shown;
-  while (!shown.empty() && !fits(shown + "..")) shown.pop_back();
-  return shown + "..";
+  const auto cut_to = [&](std::size_t kept) {
+    const std::size_t end = kept / 2;
+    return shown.substr(0, kept - end) + ".." + shown.substr(shown.size() - end);
+  };
+  std::size_t kept = shown.size() - 1;
+  while (kept > 0 && !fits(cut_to(kept))) --kept;
+  return cut_to(kept);
 }
 
 Image framed_sheet(std::span<const FramedGroup> groups, Index columns, const SheetLayout& layout) {

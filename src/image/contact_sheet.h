@@ -46,11 +46,11 @@ struct FramedGroup {
 };
 
 /// Groups one below the other on white, each in a frame with its title above. Cells wrap after `columns`. Captions that
-/// are wider than a cell are cut off.
+/// are wider than a cell are shortened by fitted_text.
 Image framed_sheet(std::span<const FramedGroup> groups, Index columns, const SheetLayout& layout);
 
 /// The text as far as OpenCV's font can show it in that width, in pixels: other characters than those of ASCII become
-/// '?', and what is too long ends in "..".
+/// '?', and of what is too long, the middle becomes "..".
 std::string fitted_text(const std::string& text, Index width, double font_size);
 
 /// The image, as large as fits into a square of that side.

@@ -3,82 +3,97 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "base/error.h"
 
 namespace svnet::semantics {
 namespace {
 
-/// A group height is factor * n^exponent * the mean distance of two items.
+/// A group height is factor * mean^(1 - weight) * top^weight, of the mean distance of two items and the height of the
+/// last merge.
 struct HeightRule {
-  double factor, exponent;
+  double factor, weight;
 };
 
-/// Chosen on the rendered collection, and confirmed on ETH-80 by bench/compare_group_counts.py. Ward's heights grow
-/// with the sizes of what is merged even inside a group, so its rule grows with n.
+/// Chosen on the rendered collection, and confirmed on ETH-80 by bench/compare_group_counts.py.
 constexpr HeightRule height_rule(Linkage linkage) {
   switch (linkage) {
     case Linkage::ward:
-      return {0.75, 0.15};
+      return {1.02, 0.2};
     case Linkage::average:
-      return {0.95, 0};
+      return {0.96, 0};
     case Linkage::complete:
-      return {0.9, 0.05};
+      return {1.02, 0.15};
     case Linkage::single:
-      return {0.86, 0};
+      return {0.9, 0.3};
   }
   return {1, 0};
 }
 
-/// The sum of distances from each item to each cluster while clusters are merged. A cluster is in the column of the
-/// first item that it was made from.
+/// The sum of distances from each item to each cluster while clusters are merged. A cluster has a column; the columns
+/// that are in use come first.
 class ClusterSums {
  public:
-  explicit ClusterSums(const DistanceMatrix& distances) : n_(distances.size()) {
-    const auto n = static_cast<std::size_t>(n_);
-    sums_.resize(n * n);
-    size_.assign(n, 1);
+  explicit ClusterSums(const DistanceMatrix& distances)
+      : n_(distances.size()), columns_(n_), sums_(static_cast<std::size_t>(n_ * n_)) {
     for (Index i = 0; i < n_; ++i) {
-      active_.push_back(i);
+      size_.push_back(1);
+      cluster_of_column_.push_back(i);
       column_of_item_.push_back(i);
       column_of_cluster_.push_back(i);
-      for (Index j = 0; j < n_; ++j) sum(i, j) = std::sqrt(static_cast<double>(distances(i, j)));
+      for (Index j = 0; j < n_; ++j) sums_of(i)[j] = std::sqrt(static_cast<double>(distances(i, j)));
     }
   }
 
   void merge(const Merge& merge) {
-    const Index a = column_of_cluster_[static_cast<std::size_t>(merge.a)];
-    const Index b = column_of_cluster_[static_cast<std::size_t>(merge.b)];
-    for (Index i = 0; i < n_; ++i) sum(i, a) += sum(i, b);
-    size_[static_cast<std::size_t>(a)] += size_[static_cast<std::size_t>(b)];
-    std::erase(active_, b);
-    std::ranges::replace(column_of_item_, b, a);
+    const Index a = std::min(column_of(merge.a), column_of(merge.b)),
+                b = std::max(column_of(merge.a), column_of(merge.b));
+    const Index last = --columns_;
+    for (Index i = 0; i < n_; ++i) {
+      double* sums = sums_of(i);
+      sums[a] += sums[b];
+      sums[b] = sums[last];
+      Index& column = column_of_item_[static_cast<std::size_t>(i)];
+      column = column == b ? a : column == last ? b : column;
+    }
+    size(a) += size(b);
+    size(b) = size(last);
+    const Index moved = cluster_of_column_[static_cast<std::size_t>(last)];
+    cluster_of_column_[static_cast<std::size_t>(b)] = moved;
+    column_of_cluster_[static_cast<std::size_t>(moved)] = b;
+    cluster_of_column_[static_cast<std::size_t>(a)] = static_cast<Index>(column_of_cluster_.size());
     column_of_cluster_.push_back(a);
   }
 
-  double mean_silhouette() const {
-    double total = 0;
-    for (Index i = 0; i < n_; ++i) {
-      const Index own = column_of_item_[static_cast<std::size_t>(i)];
-      const double others = size_[static_cast<std::size_t>(own)] - 1;
-      if (others == 0) continue;
-      const double within = sum(i, own) / others;
-      double nearest = std::numeric_limits<double>::infinity();
-      for (const Index column : active_)
-        if (column != own) nearest = std::min(nearest, sum(i, column) / size_[static_cast<std::size_t>(column)]);
-      const double larger = std::max(within, nearest);
-      if (larger > 0) total += (nearest - within) / larger;
-    }
-    return total / static_cast<double>(n_);
+  double mean_silhouette() {
+    std::vector<double> inverse, silhouette(static_cast<std::size_t>(n_));
+    for (Index c = 0; c < columns_; ++c) inverse.push_back(1 / size(c));
+    Parallel::shared().for_chunks(n_, 64, [&](Index begin, Index end, int) {
+      for (Index i = begin; i < end; ++i) silhouette[static_cast<std::size_t>(i)] = silhouette_of(i, inverse.data());
+    });
+    return std::accumulate(silhouette.begin(), silhouette.end(), 0.0) / static_cast<double>(n_);
   }
 
  private:
-  double& sum(Index item, Index column) { return sums_[static_cast<std::size_t>(item * n_ + column)]; }
-  double sum(Index item, Index column) const { return sums_[static_cast<std::size_t>(item * n_ + column)]; }
+  double silhouette_of(Index item, const double* inverse_size) {
+    const Index own = column_of_item_[static_cast<std::size_t>(item)];
+    const double others = size(own) - 1, *sums = sums_of(item);
+    if (others == 0) return 0;
+    double nearest = std::numeric_limits<double>::infinity();
+    for (Index c = 0; c < own; ++c) nearest = std::min(nearest, sums[c] * inverse_size[c]);
+    for (Index c = own + 1; c < columns_; ++c) nearest = std::min(nearest, sums[c] * inverse_size[c]);
+    const double within = sums[own] / others, larger = std::max(within, nearest);
+    return larger > 0 ? (nearest - within) / larger : 0;
+  }
 
-  Index n_;
-  std::vector<double> sums_{}, size_{};
-  std::vector<Index> active_{}, column_of_item_{}, column_of_cluster_{};
+  double* sums_of(Index item) { return sums_.data() + item * n_; }
+  double& size(Index column) { return size_[static_cast<std::size_t>(column)]; }
+  Index column_of(std::int32_t cluster) const { return column_of_cluster_[static_cast<std::size_t>(cluster)]; }
+
+  Index n_, columns_;
+  std::vector<double> sums_, size_{};
+  std::vector<Index> cluster_of_column_{}, column_of_item_{}, column_of_cluster_{};
 };
 
 Index by_silhouette(const Dendrogram& history, const DistanceMatrix& distances) {
@@ -117,7 +132,7 @@ Index group_count(GroupCount method, Linkage linkage, const Dendrogram& history,
     return history.items == 1 || history.merges.back().height == 0 ? 1 : 2;
   switch (method) {
     case GroupCount::height:
-      return above_height(history, group_height(linkage, distances));
+      return above_height(history, group_height(linkage, history, distances));
     case GroupCount::silhouette:
       return by_silhouette(history, distances);
     case GroupCount::gap:
@@ -126,7 +141,7 @@ Index group_count(GroupCount method, Linkage linkage, const Dendrogram& history,
   fail("[group_count] no method has this number");
 }
 
-double group_height(Linkage linkage, const DistanceMatrix& distances) {
+double group_height(Linkage linkage, const Dendrogram& history, const DistanceMatrix& distances) {
   const Index n = distances.size();
   if (n < 2) return 0;
   double sum = 0;
@@ -134,7 +149,7 @@ double group_height(Linkage linkage, const DistanceMatrix& distances) {
     for (Index j = 0; j < i; ++j) sum += std::sqrt(static_cast<double>(distances(i, j)));
   const double mean = sum / (static_cast<double>(n) * static_cast<double>(n - 1) / 2);
   const HeightRule rule = height_rule(linkage);
-  return rule.factor * std::pow(static_cast<double>(n), rule.exponent) * mean;
+  return rule.factor * std::pow(mean, 1 - rule.weight) * std::pow(history.merges.back().height, rule.weight);
 }
 
 std::vector<double> mean_silhouettes(const Dendrogram& history, const DistanceMatrix& distances) {

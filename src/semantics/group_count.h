@@ -7,10 +7,11 @@
 namespace svnet::semantics {
 
 /// How the number of groups is estimated.
-///   height      the merges above a height that depends on the mean distance and the number of items
+///   height      the parts above a height between the mean distance of two items and the last merge
 ///   silhouette  the number with the largest mean silhouette (Rousseeuw, J. Comput. Appl. Math. 20, 1987)
 ///   gap         the cut in the largest gap between successive heights
-/// height is the best by far where groups have few items and look alike (docs/benchmarks.md, "The number of groups").
+/// height is the best by far for few items per group (docs/benchmarks.md, "The number of groups"). All of them assume
+/// that there are groups: items of one kind are split in two or three.
 enum class GroupCount { height, silhouette, gap };
 constexpr auto enum_table(GroupCount) {
   return std::to_array<EnumName<GroupCount>>(
@@ -25,7 +26,7 @@ GroupCount group_count_named(const std::string& name);
 Index group_count(GroupCount method, Linkage linkage, const Dendrogram& history, const DistanceMatrix& distances);
 
 /// The height above which GroupCount::height takes the two parts of a merge for different groups.
-double group_height(Linkage linkage, const DistanceMatrix& distances);
+double group_height(Linkage linkage, const Dendrogram& history, const DistanceMatrix& distances);
 
 /// The mean silhouettes of the partitions of a dendrogram, by Euclidean distances: element k is that of k clusters, for
 /// k from 2 to n - 1; elements 0 and 1 are -1. As scikit-learn's silhouette_score: an item that is alone has 0.

@@ -51,7 +51,7 @@ const std::vector<Room> kRooms{
 
     {"predict",
      {"base", "image", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/models", "io/tensors"}},
-    {"c_api", {"base", "image", "view", "predict"}},
+    {"c_api", {"base", "image", "semantics", "view", "predict"}},
     {"exports",
      {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "data/model_part.h", "io/files", "io/keras",
       "io/models", "io/onnx", "io/tensors", "predict"}},

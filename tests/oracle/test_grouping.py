@@ -62,5 +62,6 @@ def test_the_height():
     random = np.random.default_rng(15)
     for problem in range(100):
         x = points(random, 40)
-        limit = 0.75 * len(x) ** 0.15 * pdist(x).mean()
-        assert svnet.group_count(x) == 1 + (scipy_linkage(x, "ward")[:, 2] > limit).sum(), problem
+        heights = scipy_linkage(x, "ward")[:, 2]
+        limit = 1.02 * pdist(x).mean() ** 0.8 * heights[-1] ** 0.2
+        assert svnet.group_count(x) == 1 + (heights > limit).sum(), problem

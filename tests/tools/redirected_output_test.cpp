@@ -24,7 +24,7 @@ void check_plain(const Workplace& place, const std::string& command, int status 
 TEST_CASE("redirected output of every command is plain lines") {
   const Workplace place;
   for (const std::string program : {"svnet-train", "svnet-eval", "svnet-features", "svnet-score", "svnet-predict",
-                                    "svnet-info", "svnet-pretrain", "svnet-render"}) {
+                                    "svnet-info", "svnet-pretrain", "svnet-render", "svnet-sort"}) {
     check_plain(place, program + " --help");
     check_plain(place, program + " --version");
     check_plain(place, program + " --colour", 2);
@@ -41,6 +41,8 @@ TEST_CASE("redirected output of every command is plain lines") {
         "--output again.h5 --problems 300",
         "svnet-predict model.safetensors --image top.png --plot plot.png",
         "svnet-predict model.safetensors --image top.png --json",
+        "svnet-sort data --sheet sheet.png --dendrogram tree.png",
+        "svnet-sort data --json -",
         "svnet-info",
         "svnet-info features.h5",
         "svnet-info scores.h5",
@@ -57,6 +59,8 @@ TEST_CASE("redirected output of every command is plain lines") {
 
 TEST_CASE("control characters of names do not reach the output") {
   const Workplace place;
+  check_plain(place, "svnet-sort \"$(printf 'a\\033[31m\\rb.png')\"", 1);
+  check_plain(place, "cp top.png \"$(printf 'c\\033[31m.png')\" && svnet-sort c*.png top.png");
   check_plain(place, "svnet-predict model.safetensors --image \"$(printf 'a\\033[31m\\rb.png')\"", 1);
   check_plain(place, "svnet-info \"$(printf 'a\\033[31m\\b')\"", 1);
   check_plain(place, "svnet-info \"$(printf -- '--\\033[31m')\"", 2);

@@ -139,9 +139,18 @@ class TreePicture {
       for (const std::size_t part : {a, b})
         line({places_[part].x, places_[part].y}, {x, places_[part].y}, colour_of(group[part]));
       line({x, places_[a].y}, {x, places_[b].y}, colour_of(both));
+      if (both < 0)
+        for (const std::size_t part : {a, b}) write_number(group[part], places_[part].y);
       places_.push_back({x, (places_[a].y + places_[b].y) / 2});
       group.push_back(both);
     }
+  }
+
+  /// The number of a group, as the sheet has it, where the cut crosses its line.
+  void write_number(std::int32_t group, double y) {
+    if (group < 0) return;
+    const auto x = static_cast<int>(std::lround(x_of(grouping_.cut_height)));
+    write_at(pixels_, std::to_string(group + 1), {x + 4, static_cast<int>(std::lround(y)) - 4}, kText);
   }
 
   static cv::Scalar colour_of(std::int32_t group) { return group < 0 ? kMuted : scalar(group_colour(group)); }

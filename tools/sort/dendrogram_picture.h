@@ -24,7 +24,7 @@ Image object_thumbnail(std::span<const Image> pictures);
 Image groups_sheet(const Grouping& grouping, std::span<const ObjectLook> looks);
 
 /// The dendrogram from left to right: a line per object with its thumbnail and name, merges at their heights, the
-/// groups in the colours of the sheet, and the cut as a dashed line.
+/// groups in the colours of the sheet with their numbers, and the cut as a dashed line.
 Image dendrogram_picture(const Grouping& grouping, std::span<const ObjectLook> looks);
 
 }  // namespace svnet
