@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "made_up_dataset.h"
+#include "semantics/group_count.h"
 
 using namespace svnet;
 using namespace svnet::sorting;
@@ -79,17 +80,19 @@ TEST_CASE("the number of groups is given or estimated") {
   const std::vector<float> features = telling_from_the_side(dataset);
   const std::vector<train::Selector> selectors{{"side", side_views(dataset)}};
   Parallel parallel(1);
-  const auto groups = [&](GroupRule rule) {
-    const auto tables = simulate(dataset, features, selectors, {.tables = 10, .groups = rule}, {}, parallel);
-    std::vector<std::size_t> counts;
-    for (const SortedTable& table : tables)
-      counts.push_back(static_cast<std::size_t>(std::ranges::max(table.outcomes[0].bins)) + 1);
-    return counts;
+  const auto sorted = [&](GroupRule rule) {
+    return simulate(dataset, features, selectors, {.tables = 10, .groups = rule}, {}, parallel);
   };
-  CHECK(groups({GroupRule::Kind::fixed, 7}) == std::vector<std::size_t>(10, 7));
-  const auto given = groups({GroupRule::Kind::categories, 0}), estimated = groups({GroupRule::Kind::estimated, 0});
-  Index right = 0;
-  for (std::size_t t = 0; t < given.size(); ++t) right += given[t] == estimated[t];
-  CHECK(right >= 8);  // the groups are clear
-  CHECK_THROWS_WITH(groups({GroupRule::Kind::fixed, 13}), "cannot make 13 groups of 12 objects");
+  const auto groups = [](const SortedTable& table) { return std::ranges::max(table.outcomes[0].bins) + 1; };
+  for (const SortedTable& table : sorted({GroupRule::Kind::fixed, 7})) CHECK(groups(table) == 7);
+  for (const SortedTable& table : sorted({GroupRule::Kind::estimated, 0})) {
+    std::vector<float> seen;
+    for (const std::int32_t view : table.outcomes[0].views)
+      seen.insert(seen.end(), features.begin() + 2 * view, features.begin() + 2 * view + 2);
+    const auto distances = semantics::squared_distances(seen.data(), 12, 2, parallel);
+    CHECK(groups(table) == semantics::group_count(semantics::GroupCount::height, semantics::Linkage::ward,
+                                                  semantics::dendrogram(semantics::Linkage::ward, distances),
+                                                  distances));
+  }
+  CHECK_THROWS_WITH(sorted({GroupRule::Kind::fixed, 13}), "cannot make 13 groups of 12 objects");
 }
