@@ -22,6 +22,7 @@ enum class Stream : std::uint32_t {
   augmentation = 10,
   bootstrap = 11,
   components = 12,
+  table = 13,
 };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`

@@ -57,4 +57,8 @@ struct ViewDataset {
   std::string pose_path(Index pose) const;
 };
 
+/// The categories for which `wanted` is true, with their objects, poses and views, in the same order. Requires an
+/// element per category.
+ViewDataset with_categories(const ViewDataset& dataset, const std::vector<bool>& wanted);
+
 }  // namespace svnet

@@ -63,6 +63,8 @@ const std::vector<Room> kRooms{
     {"train/stages",
      {"base", "image", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "predict", "train/config",
       "train"}},
+    {"sorting",
+     {"base", "semantics", "view", "frame", "data", "io/images", "io/views", "predict", "train"}},
     {"report",
      {"base", "image", "semantics", "view", "frame", "data", "io/*", "train/config", "train", "train/stages"}},
 };

@@ -8,26 +8,12 @@
 #include "base/error.h"
 #include "image/contact_sheet.h"
 #include "image/opencv_image.h"
+#include "sort/group_colour.h"
 
 namespace svnet {
 namespace {
 
 using Colour = std::array<std::uint8_t, 3>;
-
-/// Ten colours that differ for the colour-blind too (Petroff, arXiv 2107.02270); later groups begin again.
-Colour group_colour(Index group) {
-  constexpr std::array<Colour, 10> kColours{{{63, 144, 218},
-                                             {255, 169, 14},
-                                             {189, 31, 1},
-                                             {131, 45, 182},
-                                             {148, 164, 162},
-                                             {169, 107, 89},
-                                             {231, 99, 0},
-                                             {185, 172, 112},
-                                             {113, 117, 129},
-                                             {146, 218, 221}}};
-  return kColours[static_cast<std::size_t>(group) % kColours.size()];
-}
 
 cv::Scalar scalar(const Colour& colour) { return {double(colour[0]), double(colour[1]), double(colour[2])}; }
 

@@ -1,12 +1,9 @@
 #include "train/stages/dry_run.h"
 
 #include <algorithm>
-#include <cerrno>
-#include <cstdlib>
-#include <system_error>
 
-#include "base/environment.h"
 #include "base/error.h"
+#include "io/files/scratch_folder.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/evaluation.h"
 #include "train/stages/model.h"
@@ -50,40 +47,6 @@ ViewDataset sample_of(const ViewDataset& whole, Index objects) {
   return sample;
 }
 
-std::filesystem::path temporary_folder() {
-  const std::string chosen = environment_variable("TMPDIR");
-  const std::filesystem::path folder = chosen.empty() ? "/tmp" : chosen;
-  std::error_code error;
-  check(std::filesystem::is_directory(folder, error), folder.string(),
-        ": is no folder for temporary files; set TMPDIR to one");
-  return folder;
-}
-
-/// A folder of its own under the system's folder for temporary files, which the destructor removes.
-class ScratchFolder {
- public:
-  ScratchFolder() {
-    const auto temporary = temporary_folder();
-    std::string name = (temporary / "svnet-dry-run-XXXXXX").string();
-    if (mkdtemp(name.data()) == nullptr) {
-      const int error = errno;
-      fail(temporary.string(), ": no temporary folder can be made in it: ", std::generic_category().message(error),
-           "; set TMPDIR to a folder that can be written");
-    }
-    path_ = name;
-  }
-  ~ScratchFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  ScratchFolder(const ScratchFolder&) = delete;
-  ScratchFolder& operator=(const ScratchFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 }  // namespace
 
 void dry_run(const Config& config, const ViewDataset& dataset, const Messages& messages,
@@ -93,7 +56,7 @@ void dry_run(const Config& config, const ViewDataset& dataset, const Messages& m
   small.scores.min_samples = 0;
   small.scores.target_error = 0;
   small.training.epochs = 1;
-  const ScratchFolder folder;
+  const io::ScratchFolder folder("svnet-dry-run");
   const Run run = make_run(small, sample_of(dataset, std::max<Index>(2, config.scores.min_objects)), folder.path(),
                            messages, SingleProcess::shared(), inference);
   write_config(run);
