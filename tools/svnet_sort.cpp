@@ -6,6 +6,7 @@
 #include "image/oriented.h"
 #include "io/files/atomic_file.h"
 #include "io/images/image_file.h"
+#include "io/images/image_name.h"
 #include "semantics/view_fusion.h"
 #include "sort/dendrogram_picture.h"
 #include "sort/groups_text.h"
@@ -122,7 +123,8 @@ std::vector<ObjectLook> looks_of(const std::vector<SortedObject>& objects, const
   for (const SortedObject& object : objects) {
     const fs::path name = object.name;
     const std::span of_object = std::span(pictures.thumbnails).subspan(first, object.pictures.size());
-    looks.push_back({name.filename().empty() ? object.name : name.stem().string(), object_thumbnail(of_object)});
+    const fs::path shown = io::is_image_name(name) ? name.stem() : name.filename();
+    looks.push_back({shown.empty() ? object.name : shown.string(), object_thumbnail(of_object)});
     first += object.pictures.size();
   }
   return looks;

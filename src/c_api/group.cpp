@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/parallel.h"
 #include "guard.h"
 #include "semantics/group_count.h"
 

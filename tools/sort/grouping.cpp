@@ -1,6 +1,7 @@
 #include "sort/grouping.h"
 
 #include "base/error.h"
+#include "base/parallel.h"
 #include "semantics/group_count.h"
 
 namespace svnet {

@@ -12,6 +12,7 @@ std::string groups_text(const Grouping& grouping, const std::vector<SortedObject
   std::size_t number = 0;
   for (const auto& members : members_of(grouping)) {
     std::vector<std::string> names;
+    names.reserve(members.size());
     for (const std::size_t i : members) names.push_back(objects[i].name);
     text += joined(number == 0 ? "" : "\n", number + 1, ": ", joined_with(", ", names));
     ++number;
