@@ -42,6 +42,7 @@ Gain expected_gain(const GainCalibration& calibration, double margin) {
   check(calibration.residuals.size() >= 2,
         "[predict] the model does not say what moving the camera gains: it was made by an earlier version, or in the "
         "frame camera; train one in another frame (sv_net.frame)");
+  if (margin == 0) return {0, 0, 0, 0};  // the top view is the best: there is no move
   const double fitted = calibration.intercept + calibration.slope * margin;
   return {.expected = fitted,
           .low = fitted + quantile(calibration.residuals, 0.1),

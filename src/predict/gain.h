@@ -14,7 +14,7 @@ struct Gain {
 /// By how much the predicted centred scores differ, from the predicted scores of the best pose and the top view.
 double centred_margin(double best_score, double top_score);
 
-/// Throws Error if the calibration is not known.
+/// All 0 for a margin of 0. Throws Error if the calibration is not known.
 Gain expected_gain(const GainCalibration& calibration, double margin);
 
 }  // namespace svnet::predict

@@ -12,7 +12,8 @@ std::vector<PoseGain> gains_of(const PoseExamples& examples, std::span<const dou
       if (predicted[i] > predicted[best]) best = i;
       if (examples.top[i] != 0) top = i;
     }
-    if (top < end) gains.push_back({predicted[best] - predicted[top], examples.y[best] - examples.y[top]});
+    if (top < end && best != top)
+      gains.push_back({predicted[best] - predicted[top], examples.y[best] - examples.y[top]});
   }
   return gains;
 }

@@ -14,6 +14,7 @@ TEST_CASE("a gain is the line plus what it left over") {
   CHECK(gain.probability == Approx(0.75));  // a residual above -0.1
   CHECK(expected_gain(calibration, 1).probability == 1);
   CHECK(expected_gain(calibration, -1).probability == 0);
+  CHECK(expected_gain(calibration, 0).expected == 0);  // no move
   CHECK_THROWS_WITH(expected_gain({}, 0.1), Catch::Contains("the model does not say what moving the camera gains"));
 }
 

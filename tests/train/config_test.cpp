@@ -88,7 +88,7 @@ TEST_CASE("every error of a key names file, line and key") {
   CHECK(at_line_3("sv_net:\n  optimizer: adam") ==
         "c.yaml:4: sv_net.optimizer: unknown key, did you mean 'training.optimizer'?");
   CHECK(at_line_3("evaluation: {seeds: []}") ==
-        "c.yaml:3: evaluation.seeds: unknown key; known: problems, pipelines, selectors, nmi");
+        "c.yaml:3: evaluation.seeds: unknown key; known: problems, pipelines, selectors, views, fusion, nmi");
   CHECK(at_line_3("seed: 1\nseed: 2") == "c.yaml:4: key 'seed' is given twice, first on line 3");
   CHECK(at_line_3("training:\n  epochs: 1\n  epochs: 1") ==
         "c.yaml:5: key 'training.epochs' is given twice, first on line 4");

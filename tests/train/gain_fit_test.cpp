@@ -35,11 +35,9 @@ TEST_CASE("gains are those of the best predicted view over the top view") {
   PoseExamples e{
       .inputs = 1, .y = {0.1, 0.4, 0.2, 0.3, 0.9, 0.5}, .pose = {0, 0, 0, 1, 1, 2}, .top = {0, 0, 1, 1, 0, 0}};
   const auto gains = gains_of(e, std::vector<double>{0, 3, 1, 2, 1, 0});
-  REQUIRE(gains.size() == 2);  // pose 2 has no top view
+  REQUIRE(gains.size() == 1);  // in pose 1 the top view is the best, pose 2 has none
   CHECK(gains[0].margin == 2);
   CHECK(gains[0].gain == Approx(0.2));
-  CHECK(gains[1].margin == 0);  // the top view is the best
-  CHECK(gains[1].gain == 0);
 }
 
 TEST_CASE("a gain that the margin tells is expected, one that it does not tell is the mean") {
@@ -67,13 +65,13 @@ TEST_CASE("intervals hold what they say for other poses, and probabilities are s
   for (const PoseGain& g : gains_of(e, predictions(head, e)))
     gains.push_back({predict::expected_gain(calibration, g.margin), g.gain});
   const GainCheck check = checked(gains);
-  CHECK(check.poses == 160);
+  CHECK(check.poses > 110);
   CHECK(check.inside == Approx(0.8).margin(0.06));
   CHECK(check.probability == Approx(check.positive).margin(0.06));
   CHECK(check.expected == Approx(check.gained).margin(0.03));
   Index poses = 0;
   for (const GainCheck::Bin& bin : check.bins) poses += bin.poses;
-  CHECK(poses == 160);
+  CHECK(poses == check.poses);
 }
 
 TEST_CASE("gains are not known without top views or with two categories") {

@@ -15,7 +15,7 @@ void add_gains(const ViewDataset& dataset, std::span<const double> predicted, st
   for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
     const auto b = static_cast<std::size_t>(best[p]), t = static_cast<std::size_t>(top[p]);
     const double gained = scores[b] - scores[t];
-    if (!categories[static_cast<std::size_t>(dataset.poses[p].category)] || std::isnan(gained)) continue;
+    if (!categories[static_cast<std::size_t>(dataset.poses[p].category)] || std::isnan(gained) || b == t) continue;
     gains.push_back({predict::expected_gain(calibration, predict::centred_margin(predicted[b], predicted[t])), gained});
   }
 }

@@ -7,13 +7,13 @@
 #include "base/text.h"
 #include "io/files/atomic_file.h"
 #include "io/models/checkpoint.h"
+#include "io/views/scores_file.h"
 #include "models/trained_graph.h"
 #include "train/config/fingerprint.h"
 #include "train/epoch_order.h"
 #include "train/frame_head.h"
 #include "train/stages/options.h"
 #include "train/stages/reuse_or_make.h"
-#include "train/stages/scores.h"
 #include "train/stages/top_features.h"
 #include "train/stages/trained_network.h"
 #include "train/stages/wanted_scores.h"
@@ -160,10 +160,12 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
         features.turned_components(sv_net.backbone, sv_net.layer, run.training_categories());
     set_turned_backbone(model, features.backbone(sv_net.backbone, sv_net.layer).backbone, components);
   }
-  // Gains are differences of scores of uniform views. The models of rounds before the last need none.
+  // Gains are differences of scores of uniform views, which the scores stage has left in the run folder. The models of
+  // rounds before the last have folders of their own, and need no gains.
   const bool has_rounds = config.scores.rounds > 0;
+  const std::filesystem::path uniform_file = run.folder / "scores.h5";
   std::optional<Scores> uniform;
-  if (has_rounds && std::filesystem::exists(run.folder / "scores.h5")) uniform = uniform_scores_stage(run, features);
+  if (has_rounds && std::filesystem::exists(uniform_file)) uniform = io::read_scores(uniform_file);
   const FrameHead fitted = fit_frame_head(run.dataset, top_features(run, features, model), scores,
                                           run.training_categories(), sv_net.target, frame_spec(model), run.seed(),
                                           sv_net.head, has_rounds ? (uniform ? &*uniform : nullptr) : &scores);
