@@ -80,7 +80,13 @@ TEST_CASE("wrong arguments of choices are reported and do not change the outputs
           "[svnet_margin] count is 0, there is no pose to choose from");
   refused(svnet_margin(m, features.data(), poses, 1, nullptr), "[svnet_margin] margin is NULL");
   refused(svnet_margin(nullptr, features.data(), poses, 1, &margin), "[svnet_margin] model is NULL");
-  CHECK((index == 7 && found == 8 && margin == 9));
+  svnet_gain_estimate gain{1, 2, 3, 4};
+  refused(svnet_gain(m, features.data(), poses, 0, &gain), "[svnet_gain] count is 0, there is no pose to choose from");
+  refused(svnet_gain(m, features.data(), poses, 1, nullptr), "[svnet_gain] gain is NULL");
+  refused(svnet_gain(m, features.data(), poses, 1, &gain),
+          "[predict] the model does not say what moving the camera gains: it was made by an earlier version, or in the "
+          "frame camera; train one in another frame (sv_net.frame)");
+  CHECK((index == 7 && found == 8 && margin == 9 && gain.expected == 1 && gain.probability == 4));
 }
 
 TEST_CASE("a grid is counted, then written") {

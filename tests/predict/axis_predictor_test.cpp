@@ -139,3 +139,16 @@ TEST_CASE("a shape unlike those of the training counts less, and the model says 
   const Predictor camera(small_model());
   CHECK(camera.familiarity(camera.embed(small_image())).trust == 1);
 }
+
+TEST_CASE("a model that was calibrated says what moving the camera gains") {
+  Model model = small_axis_model(DepthChoice::none);
+  CHECK_FALSE(Predictor(model).knows_gain());
+  CHECK_THROWS_WITH(Predictor(model).gain(0.6, 0.5), Catch::Contains("does not say what moving the camera gains"));
+  model.gain = {.intercept = 0.01, .slope = 2, .residuals = {-0.1, 0, 0.1}};
+  const Predictor predictor(model);
+  CHECK(predictor.knows_gain());
+  const Gain gain = predictor.gain(0.55, 0.5);
+  CHECK(gain.expected == Approx(0.01 + 2 * centred_margin(0.55, 0.5)));
+  CHECK(gain.low == Approx(gain.expected - 0.08));
+  CHECK(gain.high == Approx(gain.expected + 0.08));
+}

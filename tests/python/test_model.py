@@ -76,6 +76,11 @@ def test_best_views_differ(model, image):
         model.best_views(image, grid, 2, min_angle_deg=181)
 
 
+def test_gain_is_not_known_in_the_frame_camera(model, image):
+    with pytest.raises(svnet.Error, match="does not say what moving the camera gains"):
+        model.gain(image, POSES)
+
+
 def test_margin(model, image, expected):
     top = model.score(image, [[90, 90]])[0]
     np.testing.assert_allclose(model.margin(image, POSES), expected.max() - top, atol=1e-6)
