@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/quantile.h"
 #include "models/pose_head.h"
 
 namespace svnet::predict {
@@ -13,14 +14,6 @@ double logit(double score) {
   constexpr double kLeast = 1e-9;
   const double inside = std::clamp(score, kLeast, 1 - kLeast);
   return std::log(inside / (1 - inside));
-}
-
-/// The quantile at `share` in [0, 1], linearly between those that are known.
-double quantile(const std::vector<double>& quantiles, double share) {
-  const double place = share * static_cast<double>(quantiles.size() - 1);
-  const auto below = std::min(static_cast<std::size_t>(place), quantiles.size() - 2);
-  const double part = place - static_cast<double>(below);
-  return (1 - part) * quantiles[below] + part * quantiles[below + 1];
 }
 
 /// The share of a distribution above `value`, linearly between its quantiles.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.h"
 #include "report/axis.h"
 #include "report/markup.h"
 
@@ -10,13 +11,6 @@ namespace svnet::report {
 namespace {
 
 constexpr double kBoxLabels = 104, kBoxTop = 30, kBoxRow = 20, kBoxBottom = 24;
-
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
-}
 
 std::string box_row(const BoxRow& row, const Axis& axis, double y) {
   const auto x = [&](double value) { return axis.place(value); };

@@ -1,24 +1,16 @@
 #include "sorting/summary.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "base/error.h"
+#include "base/quantile.h"
 #include "base/random.h"
 
 namespace svnet::sorting {
 namespace {
 
 constexpr std::size_t kReplicates = 2000;
-
-/// Between two ranks, linearly.
-double quantile(const std::vector<double>& ascending, double share) {
-  const double rank = share * static_cast<double>(ascending.size() - 1);
-  const auto below = static_cast<std::size_t>(rank);
-  const std::size_t above = std::min(below + 1, ascending.size() - 1);
-  return ascending[below] + (rank - std::floor(rank)) * (ascending[above] - ascending[below]);
-}
 
 }  // namespace
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "base/quantile.h"
 #include "base/random.h"
 
 namespace svnet::train {
@@ -47,14 +48,6 @@ void replicate_means(const ProblemValues& values, const std::vector<double>& dra
     for (std::size_t c = 0; c < means.size(); ++c) means[c] += weight * row[c];
   }
   for (double& mean : means) mean = sum > 0 ? mean / sum : std::numeric_limits<double>::quiet_NaN();
-}
-
-/// The quantile of sorted values by linear interpolation.
-double quantile(const std::vector<double>& sorted, double share) {
-  const double place = share * static_cast<double>(sorted.size() - 1);
-  const auto below = static_cast<std::size_t>(place);
-  const std::size_t above = std::min(below + 1, sorted.size() - 1);
-  return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
 }  // namespace

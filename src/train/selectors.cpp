@@ -180,10 +180,8 @@ std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const 
   for (std::size_t p = 0; p < dataset.poses.size(); ++p) {
     const auto& pose = dataset.poses[p];
     poses.clear();
-    for (Index v = pose.first_view; v < pose.first_view + pose.view_count; ++v) {
-      const View& view = dataset.views[static_cast<std::size_t>(v)];
+    for (const View& view : dataset.views_of(static_cast<Index>(p)))
       poses.push_back({static_cast<double>(view.theta_deg), static_cast<double>(view.phi_deg)});
-    }
     const std::size_t found = choose_view_set(
         poses, [&](std::size_t i) { return scores[static_cast<std::size_t>(pose.first_view) + i]; }, {}, chosen,
         nearest);
