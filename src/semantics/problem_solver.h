@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "semantics/clusterer.h"
@@ -16,13 +17,14 @@ struct ProblemScoring {
   ClusteringOptions clustering{};
 };
 
-/// Solves clustering problems and sums the scores of their views. Nothing is allocated per problem.
+/// Solves clustering problems and sums the scores of their views, or sets of views. Nothing is allocated per problem.
 class ProblemSolver {
  public:
-  /// Keeps references to all arguments but `scoring`. Requires: `parallel` keeps its number of threads. Throws Error if
-  /// distances and problems differ in the number of views.
+  /// Keeps references to all arguments but `scoring`. With `sets` the problems are made from the category, object and
+  /// pose of each set. Requires: `parallel` keeps its number of threads. Throws Error if distances and problems differ
+  /// in the number of views; with sets, if those and problems differ in number or a set has an unknown view.
   ProblemSolver(const DistanceMatrix& distances, const ClusteringProblems& problems, const ProblemScoring& scoring,
-                Parallel& parallel);
+                Parallel& parallel, const ViewSets* sets = nullptr);
 
   /// Adds the scores of problems [first, last) to the sums. The result has the same bits for any number of threads.
   void solve(std::uint64_t first, std::uint64_t last, ScoreSums& sums);
@@ -32,6 +34,7 @@ class ProblemSolver {
   struct Worker {
     Clusterer clusterer;
     PairScores scores;
+    std::optional<SetDistances> sets;
     std::vector<std::int32_t> truth, prediction;
     std::vector<double> individual;
     ScoreSums sums;

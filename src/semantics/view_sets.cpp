@@ -6,48 +6,50 @@
 
 namespace svnet::semantics {
 
-SetDistances::SetDistances(const DistanceMatrix& distances, Index size, ViewFusion fusion, Index max_items)
-    : distances_(distances),
-      size_(size),
+SetDistances::SetDistances(Index size, ViewFusion fusion, Index max_items)
+    : size_(size),
       fusion_(fusion),
       spread_(static_cast<std::size_t>(max_items)),
+      of_views_(LowerTriangle::size(max_items * size)),
       triangle_(LowerTriangle::size(max_items)) {}
 
-float SetDistances::spread(std::span<const std::int32_t> set) const {
+float SetDistances::spread(const LowerTriangle& views, Index item) const {
   float sum = 0;
-  for (std::size_t i = 1; i < set.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j) sum += distances_(set[i], set[j]);
+  for (Index i = 1; i < size_; ++i)
+    for (Index j = 0; j < i; ++j) sum += views.row(item * size_ + i)[item * size_ + j];
   return sum / static_cast<float>(size_ * size_);
 }
 
-/// Adds the distances of one view of an item to those of the items before it.
-void SetDistances::add_row(std::span<const std::int32_t> views, Index item, Index member, float* to) const {
-  const float* const row = distances_.row(views[static_cast<std::size_t>(item * size_ + member)]);
-  const std::int32_t* other = views.data();
-  if (fusion_ == ViewFusion::concatenate) {
-    for (Index j = 0; j < item; ++j, other += size_) to[j] += row[other[member]];
-    return;
-  }
-  for (Index j = 0; j < item; ++j, other += size_)
-    for (Index i = 0; i < size_; ++i) to[j] += row[other[i]];
-}
-
-LowerTriangle SetDistances::of(std::span<const std::int32_t> views) {
-  const Index items = static_cast<Index>(views.size()) / size_;
+LowerTriangle SetDistances::of(const LowerTriangle& views) {
+  const Index items = views.points / size_;
   const bool means = fusion_ == ViewFusion::mean;
-  for (Index i = 0; i < items; ++i)
-    spread_[static_cast<std::size_t>(i)] =
-        means ? spread(views.subspan(static_cast<std::size_t>(i * size_), static_cast<std::size_t>(size_))) : 0.0f;
+  for (Index i = 0; i < items; ++i) spread_[static_cast<std::size_t>(i)] = means ? spread(views, i) : 0.0f;
   const float share = means ? 1.0f / static_cast<float>(size_ * size_) : 1.0f;
   for (Index i = 1; i < items; ++i) {
     float* const row = triangle_.data() + LowerTriangle::row_offset(i);
     std::fill_n(row, i, 0.0f);
-    for (Index member = 0; member < size_; ++member) add_row(views, i, member, row);
+    for (Index member = 0; member < size_; ++member) {
+      const float* from = views.row(i * size_ + member);
+      if (means)
+        for (Index j = 0; j < i; ++j, from += size_)
+          for (Index other = 0; other < size_; ++other) row[j] += from[other];
+      else
+        for (Index j = 0; j < i; ++j, from += size_) row[j] += from[member];
+    }
     for (Index j = 0; j < i; ++j)  // rounding must not make it negative
       row[j] =
           std::max(row[j] * share - spread_[static_cast<std::size_t>(i)] - spread_[static_cast<std::size_t>(j)], 0.0f);
   }
   return {triangle_.data(), items};
+}
+
+LowerTriangle SetDistances::of(const DistanceMatrix& distances, std::span<const std::int32_t> views) {
+  for (std::size_t i = 1; i < views.size(); ++i) {
+    const float* const from = distances.row(views[i]);
+    float* const to = of_views_.data() + LowerTriangle::row_offset(static_cast<Index>(i));
+    for (std::size_t j = 0; j < i; ++j) to[j] = from[views[j]];
+  }
+  return of({of_views_.data(), static_cast<Index>(views.size())});
 }
 
 DistanceMatrix distances_with_partner(const DistanceMatrix& distances, std::span<const std::int32_t> partner,

@@ -26,21 +26,22 @@ struct ViewSets {
 /// with the last two sums over pairs; for concatenated features Σ d(a_i, b_i). Not thread-safe: one object per thread.
 class SetDistances {
  public:
-  /// Keeps a reference to the distances. Memory for up to max_items items of `size` views.
-  SetDistances(const DistanceMatrix& distances, Index size, ViewFusion fusion, Index max_items);
+  /// Memory for up to max_items items of `size` views.
+  SetDistances(Index size, ViewFusion fusion, Index max_items);
 
-  /// views: (items, size) rows of the matrix. The result is valid until the next call. Allocates nothing.
-  LowerTriangle of(std::span<const std::int32_t> views);
+  /// views: the distances between all views of the items, set by set. The result is valid until the next call.
+  /// Allocates nothing.
+  LowerTriangle of(const LowerTriangle& views);
+  /// views: (items, size) rows of the matrix.
+  LowerTriangle of(const DistanceMatrix& distances, std::span<const std::int32_t> views);
 
  private:
-  void add_row(std::span<const std::int32_t> views, Index item, Index member, float* to) const;
-  float spread(std::span<const std::int32_t> set) const;
+  float spread(const LowerTriangle& views, Index item) const;
 
-  const DistanceMatrix& distances_;
   Index size_;
   ViewFusion fusion_;
   std::vector<float> spread_;  // of each item: 1/k² Σ d(a, a') over its pairs
-  AlignedArray<float> triangle_;
+  AlignedArray<float> of_views_, triangle_;
 };
 
 /// The squared distances between the sets {v, partner[v]} of all views: with them, scores of views are scores of sets.

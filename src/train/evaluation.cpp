@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <utility>
 
 #include "base/error.h"
 #include "semantics/co_association.h"
@@ -17,8 +16,8 @@ namespace {
 /// The memory of one thread.
 struct Worker {
   ClusteringProblem problem;
-  std::vector<semantics::Clusterer> clusterers;                           // per pipeline
-  std::map<std::pair<std::size_t, Index>, semantics::SetDistances> sets;  // by pipeline and number of views
+  std::vector<semantics::Clusterer> clusterers;   // per pipeline
+  std::map<Index, semantics::SetDistances> sets;  // by the number of views
   Contingency contingency;
   std::vector<std::int32_t> labels;
 };
@@ -50,7 +49,7 @@ PerMetric<double> metrics_of(Worker& worker, std::size_t pipeline, const semanti
   else if (options.fusion == ViewsTogether::votes)
     vote(worker, clusterer, distances, views, number, options.seed, labels);
   else
-    clusterer.cluster(worker.sets.at({pipeline, views}).of(problem.rows), problem.categories, options.seed, number,
+    clusterer.cluster(worker.sets.at(views).of(distances, problem.rows), problem.categories, options.seed, number,
                       labels);
   worker.contingency.count(problem.labels, labels);
   PerMetric<double> values{};
@@ -158,13 +157,12 @@ void solve(const ViewDataset& dataset, const EvaluationSet& set, const std::vect
     Worker worker{problems.new_problem(), {}, {}, Contingency(problems.max_items()), {}};
     for (const auto& pipeline : pipelines)
       worker.clusterers.emplace_back(pipeline.clustering, problems.max_items(), problems.max_categories());
-    for (std::size_t p = 0; p < pipelines.size(); ++p)
-      for (const Selector& selector : set.selectors)
-        if (selector.views > 1 && options.fusion != ViewsTogether::votes)
-          worker.sets.try_emplace(
-              {p, selector.views}, *pipelines[p].distances, selector.views,
-              options.fusion == ViewsTogether::mean ? semantics::ViewFusion::mean : semantics::ViewFusion::concatenate,
-              problems.max_items());
+    for (const Selector& selector : set.selectors)
+      if (selector.views > 1 && options.fusion != ViewsTogether::votes)
+        worker.sets.try_emplace(
+            selector.views, selector.views,
+            options.fusion == ViewsTogether::mean ? semantics::ViewFusion::mean : semantics::ViewFusion::concatenate,
+            problems.max_items());
     worker.labels.resize(static_cast<std::size_t>(problems.max_items()));
     workers.push_back(std::move(worker));
   }

@@ -48,7 +48,7 @@ TEST_CASE("a batch has the problems that are drawn one by one, in ascending orde
           return problems.place_of_view(a) < problems.place_of_view(b);
         };
         std::sort(problem.rows.begin(), problem.rows.end(), by_place);
-        const auto rows = batch.rows(static_cast<Index>(p));
+        const auto rows = batch.items(static_cast<Index>(p));
         REQUIRE(std::vector(rows.begin(), rows.end()) == problem.rows);
         REQUIRE(batch.categories(static_cast<Index>(p)) == problem.categories);
         const LowerTriangle triangle = batch.distances(static_cast<Index>(p));

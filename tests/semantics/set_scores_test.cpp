@@ -88,8 +88,8 @@ TEST_CASE("distances of sets are those of their fused features") {
       for (std::int32_t i = 0; i < 6 * size; ++i) sets.views.push_back(i * 5 % 17);
       const auto expected =
           distances_of(fused(sets, features), fusion == ViewFusion::mean ? kDimension : kDimension * size);
-      SetDistances of_sets(distances, size, fusion, 6);
-      const LowerTriangle triangle = of_sets.of(sets.views);
+      SetDistances of_sets(size, fusion, 6);
+      const LowerTriangle triangle = of_sets.of(distances, sets.views);
       REQUIRE(triangle.points == 6);
       for (Index i = 1; i < 6; ++i)
         for (Index j = 0; j < i; ++j) CHECK(triangle.row(i)[j] == Approx(expected(i, j)).margin(1e-5));
