@@ -110,6 +110,23 @@ above 0.
 Raises svnet.Error as score does, and if the model does not know: models of the frame camera, and of earlier versions.
 )";
 
+constexpr const char* kNextViewDoc = R"(next_view(self, image, taken, angles_deg, min_angle_deg=0, depth=None)
+--
+
+Which of the given camera poses to view next, when views of the object were taken.
+
+image : (H, W, 3) uint8, RGB, the object from above
+taken : list of (theta, phi, picture), at least one: the pose of each view that was taken, in degrees, and its picture,
+    (h, w, 3) uint8, RGB. The top view counts only if it is in the list
+angles_deg, depth : as for score
+min_angle_deg : the least angle between the pose and each taken one, in [0, 180] degrees
+Returns (index, scores): the index (int) of the pose with the highest score among those that differ from the taken ones,
+None if none differs enough; and (M,) float32, the scores of all: about 1/2 plus what the view and a taken view tell
+together, more than the other candidates would.
+Raises svnet.Error as score does, and if the model does not know (knows_next_view): it must be trained with
+sv_net.next_view: ridge.
+)";
+
 /// Camera poses of one call, and their scores.
 struct ScoredPoses {
   std::vector<view::CameraPose> poses;
@@ -218,6 +235,46 @@ py::dict gain_of(const LoadedModel& self, const py::object& image, const py::obj
   return result;
 }
 
+/// The views that were taken, from a list of (theta, phi, picture).
+std::vector<frame::TakenView> taken_views(const char* function, const py::object& given) {
+  check(py::isinstance<py::sequence>(given) && !py::isinstance<py::str>(given), "[", function,
+        "] taken is no list of (theta, phi, picture)");
+  const auto views = py::reinterpret_borrow<py::sequence>(given);
+  check(!views.empty(), "[", function, "] taken is empty, no view was taken; the best first one is best_view's");
+  std::vector<frame::TakenView> taken;
+  for (const py::handle item : views) {
+    check(py::isinstance<py::sequence>(item) && py::len(item) == 3, "[", function, "] taken[", taken.size(),
+          "] is not (theta, phi, picture)");
+    const auto view = py::reinterpret_borrow<py::sequence>(item);
+    const view::CameraPose pose{number(function, "theta", py::object(view[0])),
+                                number(function, "phi", py::object(view[1]))};
+    const Image picture = image(function, py::object(view[2]));
+    const Computing computing;
+    taken.push_back({pose, frame::view_shape(picture)});
+  }
+  return taken;
+}
+
+py::tuple next_view_of(const LoadedModel& self, const py::object& given_image, const py::object& given_taken,
+                       const py::object& angles_deg, const py::object& min_angle_deg, const py::object& given_depth) {
+  constexpr const char* kName = "Model.next_view";
+  const Predictor& predictor = self.predictor;
+  const Image top = image(kName, given_image);
+  std::optional<DepthImage> depth;
+  if (!given_depth.is_none()) depth = depth_image(kName, given_depth, top.height, top.width);
+  const double angle_deg = number(kName, "min_angle_deg", min_angle_deg);
+  const std::vector<view::CameraPose> poses = camera_poses(kName, angles_deg);
+  const std::vector<frame::TakenView> taken = taken_views(kName, given_taken);
+  std::vector<float> scores;
+  std::optional<std::size_t> next;
+  {
+    const Computing computing;
+    scores = predictor.next_scores(predictor.embed(top, depth ? &*depth : nullptr), taken, poses);
+    next = predict::next_view(scores, poses, taken, angle_deg);
+  }
+  return py::make_tuple(next ? py::object(py::int_(*next)) : py::none(), array_of(std::span<const float>(scores)));
+}
+
 /// Makes Model.__new__ raise TypeError: pybind11's own would make an instance without a model, and methods would
 /// use memory that holds none.
 void refuse_new(PyHeapTypeObject* type) {
@@ -239,6 +296,11 @@ void bind_model(py::module_& module) {
            py::arg("min_angle_deg") = 0, py::arg("depth") = py::none())
       .def("margin", margin_of, kMarginDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
       .def("gain", gain_of, kGainDoc, py::arg("image"), py::arg("angles_deg"), py::arg("depth") = py::none())
+      .def("next_view", next_view_of, kNextViewDoc, py::arg("image"), py::arg("taken"), py::arg("angles_deg"),
+           py::arg("min_angle_deg") = 0, py::arg("depth") = py::none())
+      .def_property_readonly(
+          "knows_next_view", [](const LoadedModel& self) { return self.predictor.knows_next_view(); },
+          "Whether next_view knows: the model was trained with sv_net.next_view.")
       .def_property_readonly(
           "uses_depth", [](const LoadedModel& self) { return self.predictor.uses_depth(); },
           "Whether the model was trained with the depth of top views, and needs it.")

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "frame/frame_inputs.h"
+#include "frame/next_inputs.h"
 #include "io/models/model_file.h"
 #include "models/backbone.h"
 #include "models/pose_head.h"
@@ -40,6 +41,15 @@ inline void set_small_head(svnet::Model& model) {
   model.head = models::linear_head(inputs);
   model.head_parameters.set("ridge/kernel", small_weights({inputs, 1}, 1));
   model.head_parameters.set("ridge/bias", Tensor::full({1}, 0.25f));
+}
+
+/// Gives a model in another frame than `camera` a head of the next view.
+inline void set_small_next_head(svnet::Model& model) {
+  using namespace svnet;
+  const Index inputs = frame::next_input_count(frame_spec(model));
+  model.next_head = models::linear_head(inputs);
+  model.next_parameters.set("ridge/kernel", small_weights({inputs, 1}, 0.5f));
+  model.next_parameters.set("ridge/bias", Tensor::full({1}, -0.1f));
 }
 
 /// A model in the frame `axis`.

@@ -38,7 +38,8 @@ void evaluate_run(const train::Run& run, train::FeaturesStage& features, const M
   const std::vector<double> predicted = predicted_scores(run, features, model);
   std::optional<semantics::SemanticScores> held_out;
   if (run.has_held_out_problems()) held_out = held_out_scores(run, features, problems);
-  const train::EvaluationInputs inputs{features, scores, predicted, held_out ? &*held_out : nullptr};
+  const train::EvaluationInputs inputs{features, scores, predicted, held_out ? &*held_out : nullptr,
+                                       next_scores(run, features, model)};
   const auto tables = evaluation_stage(run, inputs, problems, output.json);
   if (const auto table = tables.find("held_out"); table != tables.end())
     keep_held_out_results(run, model, table->second);

@@ -82,7 +82,8 @@ int main(int argc, char** argv) {
       .value_name("FILE");
   command
       .add("--part", a.part,
-           "all: from the image to scores; backbone: from the image to features; head: from features to scores. Models "
+           "all: from the image to scores; backbone: from the image to features; head: from features to scores; "
+           "next: from a pose and the views taken to scores. Models "
            "in other frames than camera have only the parts, those in the frame axis only the head")
       .one_of(names_of<ModelPart>())
       .shows_default();

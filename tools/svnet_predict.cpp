@@ -15,6 +15,7 @@
 #include "predict/prediction_picture.h"
 #include "predict/prediction_text.h"
 #include "predict/predictor.h"
+#include "predict/taken_views.h"
 #include "predict/top_images.h"
 #include "view/pose_grid.h"
 
@@ -29,6 +30,7 @@ struct Arguments {
   bool json = false, gain = false, has_candidates = false;  // has_candidates: --poses or --grid
   Index best = 0;                                           // 0: not given
   double min_angle_deg = 0;
+  std::vector<std::string> taken;
   std::string exif{name_of(ExifOrientation::ignore)};
 };
 
@@ -49,7 +51,15 @@ class PredictCommand {
       : a_(arguments),
         console_(console),
         candidates_(a_.poses_file.empty() ? view::paper_grid() : io::read_pose_list(a_.poses_file)),
-        predictor_(a_.model, inference_options_from_environment()) {}
+        predictor_(a_.model, inference_options_from_environment()) {
+    for (const std::string& text : a_.taken) {
+      const TakenPicture taken = taken_picture(text);
+      taken_.push_back({taken.pose, frame::view_shape(top_image(taken.picture, a_.exif, console_))});
+    }
+    check(taken_.empty() || predictor_.knows_next_view(), a_.model.string(),
+          ": does not know which view to take next; train it with sv_net.next_view: ridge");
+    if (!taken_.empty()) leave_out_taken();
+  }
 
   Prediction predict(const TopImage& from, const std::filesystem::path& plot) const {
     std::optional<DepthImage> depth;
@@ -61,6 +71,7 @@ class PredictCommand {
     const Tensor features = predictor_.embed(top, depth ? &*depth : nullptr);
     const bool has_views = !from.views.empty() && !a_.has_candidates;
     const std::vector<CameraPose>& poses = has_views ? from.poses : candidates_;
+    if (!taken_.empty()) return next_prediction(top, features, plot);
     const std::vector<float> scores = predictor_.scores(features, poses);
     const float top_score = predictor_.scores(features, std::span(&view::kTopView, 1))[0];
     std::vector<std::size_t> chosen(std::min(static_cast<std::size_t>(std::max<Index>(a_.best, 1)), poses.size()));
@@ -117,6 +128,21 @@ class PredictCommand {
   }
 
  private:
+  /// Candidates that are apart from the views taken.
+  void leave_out_taken() {
+    std::erase_if(candidates_,
+                  [&](const CameraPose& pose) { return !predict::is_apart(pose, taken_, a_.min_angle_deg); });
+    check(!candidates_.empty(), "no candidate differs enough from the views of --taken; give others by --poses",
+          a_.min_angle_deg > 0 ? ", or a smaller --min-angle" : "");
+  }
+
+  /// Which view to take next.
+  Prediction next_prediction(const Image& top, const Tensor& features, const std::filesystem::path& plot) const {
+    const std::vector<float> scores = predictor_.next_scores(features, taken_, candidates_);
+    if (!plot.empty()) io::write_png(plot, predict::prediction_picture(top, nullptr, candidates_, scores, nullptr));
+    return {candidates_, scores, {predict::best_view(scores)}, {}, {}, predictor_.familiarity(features)};
+  }
+
   std::vector<std::size_t> printed(const Prediction& prediction) const {
     return a_.best > 0 ? prediction.best : predict::best_first(prediction.scores);
   }
@@ -125,6 +151,7 @@ class PredictCommand {
   Console& console_;
   std::vector<CameraPose> candidates_;
   predict::Predictor predictor_;
+  std::vector<frame::TakenView> taken_{};
 };
 
 }  // namespace
@@ -166,6 +193,13 @@ int main(int argc, char** argv) {
            "The least angle between two of the poses of --views, in degrees: 0 to 180, between viewing directions")
       .value_name("DEG")
       .shows_default();
+  command
+      .add(
+          "--taken", a.taken,
+          "A view that was taken, by its pose and its picture, such as 45,60=view.png; may be repeated. The scores are "
+          "then those of the next view, beside these: the candidates without those taken, or within --min-angle of "
+          "them. For models that were trained with sv_net.next_view")
+      .value_name("THETA,PHI=FILE");
   command.add_flag("--gain", a.gain,
                    "Also prints what moving the camera from the top view to the best pose is expected to gain, with an "
                    "interval that holds four of five cases, for objects of categories that the model has not seen");
@@ -190,6 +224,9 @@ int main(int argc, char** argv) {
       .value_name("FILE");
   return command.run(argc, argv, [&](Console& console) {
     a.has_candidates = grid || !a.poses_file.empty();
+    if (!a.taken.empty() && (a.best > 0 || a.gain || std::filesystem::is_directory(a.image)))
+      wrong_usage(
+          "--taken says which view of one object to take next: it goes with neither --views, --gain nor a folder");
     const PredictCommand predict_command(a, console);
     if (std::filesystem::is_directory(a.image))
       predict_command.predict_folder();

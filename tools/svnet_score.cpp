@@ -10,6 +10,7 @@
 #include "io/views/scores_file.h"
 #include "mpi/mpi_communicator.h"
 #include "train/dataset_rows.h"
+#include "train/stages/made_scores.h"
 #include "train/stages/scores.h"
 
 namespace svnet {

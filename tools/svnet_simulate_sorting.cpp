@@ -140,7 +140,8 @@ int main(int argc, char** argv) {
       "An object is right if its category has the most objects in its bin, and no other bin has more objects of this "
       "category. A move takes 1.5 s and its angle at 60 degrees per second; the way between objects is not counted. "
       "Selectors: top; rand; broadside, phi 45 across the object's axis; svnet and svnet_2, one and two views that the "
-      "model chooses; top_svnet, the top view and that of svnet; opt, the best view by its semantic score, which needs "
+      "model chooses; top_svnet, the top view and that of svnet; move_50, that of svnet for the objects that gain most "
+      "by it, half of them; opt, the best view by its semantic score, which needs "
       "all views and their categories: a limit.",
       "svnet-simulate-sorting\n"
       "svnet-simulate-sorting photos --model runs/mine/model.safetensors --picture table.png\n"

@@ -156,6 +156,29 @@ typedef struct svnet_gain_estimate {
 SVNET_API svnet_status svnet_gain(const svnet_model* model, const float* features, const double* poses_deg,
                                   size_t count, svnet_gain_estimate* gain);
 
+/* The numbers that say what the picture of a view shows of the object's shape. */
+#define SVNET_VIEW_SHAPE_SIZE 3
+
+/* Measures the picture of a view, taken from any camera pose; arguments as for svnet_embed. `shape` receives
+ * SVNET_VIEW_SHAPE_SIZE floats, all 0 if the picture does not show one whole object. No model is needed. */
+SVNET_API svnet_status svnet_view_shape(const uint8_t* pixels, int32_t height, int32_t width, size_t stride_bytes,
+                                        svnet_pixel_format format, float* shape);
+
+/* Whether the model knows which view to take next (it was trained with sv_net.next_view): 1, or 0 if not or for NULL.
+ */
+SVNET_API int svnet_knows_next_view(const svnet_model* model);
+
+/* Finds the pose to take next, when `taken` views of an object were taken (at least 1; the top view counts only if it
+ * is among them). `features`: of its top image, from svnet_embed. `taken_deg`: 2 * taken doubles, the poses of these
+ * views. `taken_shapes`: SVNET_VIEW_SHAPE_SIZE floats of each, from svnet_view_shape. Of the `count` candidates those
+ * count that differ from each taken pose, by min_angle_deg or more ([0, 180]; up to 1e-4 degrees less count as enough).
+ * `best` receives the index of the one with the highest score, the first one in a tie; `count` if none differs enough.
+ * `scores`, if not NULL, receives the scores of all candidates: about 1/2 plus what the view and a taken view tell
+ * together, more than the other candidates would. A model that does not know is SVNET_INVALID_ARGUMENT. */
+SVNET_API svnet_status svnet_next_view(const svnet_model* model, const float* features, const double* taken_deg,
+                                       const float* taken_shapes, size_t taken, const double* poses_deg, size_t count,
+                                       double min_angle_deg, size_t* best, float* scores);
+
 /* Writes the poses of a grid, sorted by elevation, then azimuth: theta_steps azimuths (1 to 3600), evenly from 0, at
  * each of phi_steps elevations (1 to 1000), evenly from lowest_phi_deg to highest_phi_deg, both included; with one step
  * the lowest alone. Expects 0 <= lowest <= highest <= 90. At 90 degrees there is one pose, (90, 90). `count` receives
@@ -189,7 +212,7 @@ SVNET_API svnet_status svnet_context_embed(svnet_context* context, const uint8_t
                                            size_t stride_bytes, svnet_pixel_format format, const float* depth_m,
                                            float* features);
 
-/* svnet_score, svnet_best_view, svnet_best_views and svnet_margin. */
+/* svnet_score, svnet_best_view, svnet_best_views, svnet_margin, svnet_gain and svnet_next_view. */
 SVNET_API svnet_status svnet_context_score(svnet_context* context, const float* features, const double* poses_deg,
                                            size_t count, float* scores);
 SVNET_API svnet_status svnet_context_best_view(svnet_context* context, const float* features, const double* poses_deg,
@@ -199,6 +222,11 @@ SVNET_API svnet_status svnet_context_best_views(svnet_context* context, const fl
                                                 float* scores, size_t* found);
 SVNET_API svnet_status svnet_context_margin(svnet_context* context, const float* features, const double* poses_deg,
                                             size_t count, float* margin);
+SVNET_API svnet_status svnet_context_gain(svnet_context* context, const float* features, const double* poses_deg,
+                                          size_t count, svnet_gain_estimate* gain);
+SVNET_API svnet_status svnet_context_next_view(svnet_context* context, const float* features, const double* taken_deg,
+                                               const float* taken_shapes, size_t taken, const double* poses_deg,
+                                               size_t count, double min_angle_deg, size_t* best, float* scores);
 
 #ifdef __cplusplus
 }

@@ -10,6 +10,7 @@
 #ifndef SVNET_SVNET_HPP
 #define SVNET_SVNET_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -69,6 +70,11 @@ inline std::size_t pixel_bytes(svnet_pixel_format format) {
   return format == SVNET_GRAY8 ? 1 : format == SVNET_RGBA8 || format == SVNET_BGRA8 ? 4 : 3;
 }
 
+inline std::size_t stride_of(const ImageView& image) {
+  if (image.stride_bytes != 0) return image.stride_bytes;
+  return static_cast<std::size_t>(image.width) * pixel_bytes(image.format);
+}
+
 }  // namespace detail
 
 inline std::string version() { return svnet_version(); }
@@ -109,6 +115,28 @@ inline Groups group(const std::vector<float>& features, std::size_t rows, std::s
       svnet_group(features.data(), rows, features.size() / rows, groups, result.labels.data(), &result.count));
   return result;
 }
+
+// What the picture of a view shows of the object's shape: svnet_view_shape.
+using ViewShape = std::array<float, SVNET_VIEW_SHAPE_SIZE>;
+
+inline ViewShape view_shape(const ImageView& picture) {
+  ViewShape shape{};
+  detail::check(svnet_view_shape(picture.pixels, picture.height, picture.width, detail::stride_of(picture),
+                                 picture.format, shape.data()));
+  return shape;
+}
+
+// A view that was taken, and what its picture shows.
+struct TakenView {
+  CameraPose pose;
+  ViewShape shape;
+};
+
+// A pose to take next, as an index of the candidates, and the scores of all of them.
+struct NextView {
+  std::size_t index;
+  std::vector<float> scores;
+};
 
 // A trained model; movable, not copyable. All functions throw StatusError or std::bad_alloc if svnet.h fails.
 class ViewModel {
@@ -194,6 +222,25 @@ class ViewModel {
     return result;
   }
 
+  bool knows_next_view() const { return svnet_knows_next_view(model_.get()) != 0; }
+
+  // The pose to take next when views of the object were taken, at least min_angle_deg from each of them, and the scores
+  // of all candidates: svnet_next_view. `index` is poses.size() if none differs enough.
+  NextView next_view(const std::vector<float>& features, const std::vector<TakenView>& taken,
+                     const std::vector<CameraPose>& poses, double min_angle_deg = 0) const {
+    std::vector<CameraPose> taken_poses;
+    std::vector<float> shapes;
+    for (const TakenView& view : taken) {
+      taken_poses.push_back(view.pose);
+      shapes.insert(shapes.end(), view.shape.begin(), view.shape.end());
+    }
+    NextView next{0, std::vector<float>(poses.size())};
+    detail::check(svnet_next_view(model_.get(), numbers(features), angles(taken_poses.data()), shapes.data(),
+                                  taken.size(), angles(poses.data()), poses.size(), min_angle_deg, &next.index,
+                                  next.scores.data()));
+    return next;
+  }
+
  private:
   friend class ViewContext;
 
@@ -201,10 +248,7 @@ class ViewModel {
     void operator()(svnet_model* model) const { svnet_model_free(model); }
   };
 
-  static std::size_t stride_of(const ImageView& image) {
-    if (image.stride_bytes != 0) return image.stride_bytes;
-    return static_cast<std::size_t>(image.width) * detail::pixel_bytes(image.format);
-  }
+  static std::size_t stride_of(const ImageView& image) { return detail::stride_of(image); }
 
   const float* numbers(const std::vector<float>& features) const {
     if (features.size() != feature_count())
@@ -253,6 +297,11 @@ class ViewContext {
   float margin(const float* features, const CameraPose* poses, std::size_t count) {
     float result = 0;
     detail::check(svnet_context_margin(context_.get(), features, ViewModel::angles(poses), count, &result));
+    return result;
+  }
+  svnet_gain_estimate gain(const float* features, const CameraPose* poses, std::size_t count) {
+    svnet_gain_estimate result{};
+    detail::check(svnet_context_gain(context_.get(), features, ViewModel::angles(poses), count, &result));
     return result;
   }
 

@@ -78,7 +78,17 @@ class Model:
     def gain(
         self, image: NDArray[np.uint8], angles_deg: ArrayLike, depth: Optional[ArrayLike] = None
     ) -> dict[str, float]: ...
+    def next_view(
+        self,
+        image: NDArray[np.uint8],
+        taken: Sequence[tuple[float, float, NDArray[np.uint8]]],
+        angles_deg: ArrayLike,
+        min_angle_deg: float = 0,
+        depth: Optional[ArrayLike] = None,
+    ) -> tuple[Optional[int], NDArray[np.float32]]: ...
     def margin(self, image: NDArray[np.uint8], angles_deg: ArrayLike, depth: Optional[ArrayLike] = None) -> float: ...
+    @property
+    def knows_next_view(self) -> bool: ...
     @property
     def uses_depth(self) -> bool: ...
 

@@ -23,6 +23,7 @@ enum class Stream : std::uint32_t {
   bootstrap = 11,
   components = 12,
   table = 13,
+  pairs = 14,
 };
 
 /// Philox4x32-10 (Salmon et al., "Parallel random numbers: as easy as 1, 2, 3", SC 2011): ten rounds on `counter`

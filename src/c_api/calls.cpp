@@ -15,6 +15,18 @@ void check_some(const char* function, const Poses& poses) {
   check(poses.count > 0, "[", function, "] count is 0, there is no pose to choose from");
 }
 
+/// Puts the poses into the buffers; false if there are none.
+bool take_poses(const char* function, const Poses& poses, CallBuffers& buffers) {
+  buffers.poses.clear();
+  if (poses.count == 0) return false;
+  check_given(poses.angles_deg, function, "poses_deg");
+  if (poses.count > buffers.poses.max_size()) throw std::bad_alloc();
+  buffers.poses.reserve(poses.count);
+  for (std::size_t i = 0; i < poses.count; ++i)
+    buffers.poses.push_back({poses.angles_deg[2 * i], poses.angles_deg[2 * i + 1]});
+  return true;
+}
+
 void warn_of_unfamiliar(const svnet_model& model, CallBuffers& buffers) {
   const predict::Familiarity top = model.predictor.familiarity(buffers.features, buffers.workspace);
   if (top.trust < 1)
@@ -43,14 +55,8 @@ void score(const char* function, const svnet_model* model, const float* features
            CallBuffers& buffers) {
   check_given(model, function, "model");
   check_given(features, function, "features");
-  buffers.poses.clear();
   buffers.scores.clear();
-  if (poses.count == 0) return;
-  check_given(poses.angles_deg, function, "poses_deg");
-  if (poses.count > buffers.poses.max_size()) throw std::bad_alloc();
-  buffers.poses.reserve(poses.count);
-  for (std::size_t i = 0; i < poses.count; ++i)
-    buffers.poses.push_back({poses.angles_deg[2 * i], poses.angles_deg[2 * i + 1]});
+  if (!take_poses(function, poses, buffers)) return;
   buffers.scores.resize(poses.count);
   const auto dimension = static_cast<std::size_t>(model->predictor.feature_count());
   model->predictor.scores(std::span(features, dimension), buffers.poses, buffers.scores, buffers.workspace);
@@ -115,6 +121,30 @@ void write_gain(const char* function, const svnet_model* model, const float* fea
   const auto [best, top] = best_and_top(function, model, features, poses, buffers);
   const predict::Gain expected = model->predictor.gain(static_cast<double>(best), static_cast<double>(top));
   *gain = {expected.expected, expected.low, expected.high, expected.probability};
+}
+
+void write_next_view(const char* function, const svnet_model* model, const float* features, const TakenViews& taken,
+                     const Poses& poses, double min_angle_deg, std::size_t* best, float* scores, CallBuffers& buffers) {
+  check_given(model, function, "model");
+  check_given(features, function, "features");
+  check_given(best, function, "best");
+  check(taken.count > 0, "[", function, "] taken is 0, no view was taken; the best first one is svnet_best_view's");
+  check_given(taken.angles_deg, function, "taken_deg");
+  check_given(taken.shapes, function, "taken_shapes");
+  check_some(function, poses);
+  static_cast<void>(take_poses(function, poses, buffers));
+  if (taken.count > buffers.taken.max_size()) throw std::bad_alloc();
+  buffers.taken.resize(taken.count);
+  for (std::size_t i = 0; i < taken.count; ++i) {
+    buffers.taken[i].pose = {taken.angles_deg[2 * i], taken.angles_deg[2 * i + 1]};
+    std::copy_n(taken.shapes + i * SVNET_VIEW_SHAPE_SIZE, SVNET_VIEW_SHAPE_SIZE, buffers.taken[i].shape.begin());
+  }
+  buffers.scores.resize(poses.count);
+  const auto dimension = static_cast<std::size_t>(model->predictor.feature_count());
+  model->predictor.next_scores(std::span(features, dimension), buffers.taken, buffers.poses, buffers.scores,
+                               buffers.workspace);
+  *best = predict::next_view(buffers.scores, buffers.poses, buffers.taken, min_angle_deg).value_or(poses.count);
+  if (scores != nullptr) std::ranges::copy(buffers.scores, scores);
 }
 
 }  // namespace svnet

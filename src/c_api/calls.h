@@ -20,6 +20,7 @@ struct CallBuffers {
   std::vector<view::CameraPose> poses{};
   std::vector<std::size_t> chosen{};
   std::vector<double> nearest{};
+  std::vector<frame::TakenView> taken{};
   predict::Workspace workspace{};
 };
 
@@ -61,5 +62,15 @@ void write_margin(const char* function, const svnet_model* model, const float* f
                   float* margin, CallBuffers& buffers);
 void write_gain(const char* function, const svnet_model* model, const float* features, const Poses& poses,
                 svnet_gain_estimate* gain, CallBuffers& buffers);
+
+/// Views that were taken: 2 doubles, and SVNET_VIEW_SHAPE_SIZE floats, of each.
+struct TakenViews {
+  const double* angles_deg;
+  const float* shapes;
+  std::size_t count;
+};
+
+void write_next_view(const char* function, const svnet_model* model, const float* features, const TakenViews& taken,
+                     const Poses& poses, double min_angle_deg, std::size_t* best, float* scores, CallBuffers& buffers);
 
 }  // namespace svnet

@@ -76,3 +76,21 @@ svnet_status svnet_context_margin(svnet_context* context, const float* features,
     write_margin(kName, model, features, {poses_deg, count}, margin, buffers);
   });
 }
+
+svnet_status svnet_context_gain(svnet_context* context, const float* features, const double* poses_deg, size_t count,
+                                svnet_gain_estimate* gain) {
+  constexpr const char* kName = "svnet_context_gain";
+  return computed_in(context, kName, [&](const svnet_model* model, CallBuffers& buffers) {
+    write_gain(kName, model, features, {poses_deg, count}, gain, buffers);
+  });
+}
+
+svnet_status svnet_context_next_view(svnet_context* context, const float* features, const double* taken_deg,
+                                     const float* taken_shapes, size_t taken, const double* poses_deg, size_t count,
+                                     double min_angle_deg, size_t* best, float* scores) {
+  constexpr const char* kName = "svnet_context_next_view";
+  return computed_in(context, kName, [&](const svnet_model* model, CallBuffers& buffers) {
+    write_next_view(kName, model, features, {taken_deg, taken_shapes, taken}, {poses_deg, count}, min_angle_deg, best,
+                    scores, buffers);
+  });
+}

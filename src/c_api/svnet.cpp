@@ -1,6 +1,7 @@
 // The C interface to Predictor: models, and calls without a context.
 #include "svnet/svnet.h"
 
+#include <algorithm>
 #include <chrono>
 #include <mutex>
 
@@ -10,6 +11,7 @@
 #include "calls.h"
 #include "guard.h"
 #include "log.h"
+#include "pixels.h"
 
 namespace {
 
@@ -125,5 +127,32 @@ svnet_status svnet_margin(const svnet_model* model, const float* features, const
   return computed(SVNET_INVALID_ARGUMENT, [&] {
     CallBuffers buffers = single_call();
     write_margin("svnet_margin", model, features, {poses_deg, count}, margin, buffers);
+  });
+}
+
+svnet_status svnet_view_shape(const uint8_t* pixels, int32_t height, int32_t width, size_t stride_bytes,
+                              svnet_pixel_format format, float* shape) {
+  constexpr const char* kName = "svnet_view_shape";
+  static_assert(SVNET_VIEW_SHAPE_SIZE == svnet::frame::kViewShapeSize);
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
+    check_given(pixels, kName, "pixels");
+    check_given(shape, kName, "shape");
+    Image image;
+    read_pixels(kName, pixels, height, width, stride_bytes, format, image);
+    std::ranges::copy(frame::view_shape(image), shape);
+  });
+}
+
+int svnet_knows_next_view(const svnet_model* model) {
+  return model != nullptr && model->predictor.knows_next_view() ? 1 : 0;
+}
+
+svnet_status svnet_next_view(const svnet_model* model, const float* features, const double* taken_deg,
+                             const float* taken_shapes, size_t taken, const double* poses_deg, size_t count,
+                             double min_angle_deg, size_t* best, float* scores) {
+  return computed(SVNET_INVALID_ARGUMENT, [&] {
+    CallBuffers buffers = single_call();
+    write_next_view("svnet_next_view", model, features, {taken_deg, taken_shapes, taken}, {poses_deg, count},
+                    min_angle_deg, best, scores, buffers);
   });
 }

@@ -60,6 +60,10 @@ struct Model {
   int symmetries = 1;
   Graph head;  // as sv_net() or, in frames other than `camera`, as models/pose_head.h makes it
   Parameters head_parameters;
+  /// Of the frames other than `camera`: ranks the poses of the next view, on the inputs of frame/next_inputs.h, as
+  /// models/pose_head.h makes it. No layers: not known.
+  Graph next_head{};
+  Parameters next_parameters{};
   std::string input_fingerprint;  // of everything that the parameters depend on
   TrainedOn trained_on{};
   HeldOutResults held_out{};

@@ -7,10 +7,13 @@ namespace svnet {
 ///   all       top image and camera poses to scores; only of models in the frame `camera`
 ///   backbone  top image to features
 ///   head      features and camera poses to scores
-enum class ModelPart { all, backbone, head };
+///   next      the inputs of frame/next_inputs.h to scores; only of models that know which view to take next
+enum class ModelPart { all, backbone, head, next };
 constexpr auto enum_table(ModelPart) {
-  return std::to_array<EnumName<ModelPart>>(
-      {{ModelPart::all, "all"}, {ModelPart::backbone, "backbone"}, {ModelPart::head, "head"}});
+  return std::to_array<EnumName<ModelPart>>({{ModelPart::all, "all"},
+                                             {ModelPart::backbone, "backbone"},
+                                             {ModelPart::head, "head"},
+                                             {ModelPart::next, "next"}});
 }
 
 }  // namespace svnet

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "frame/next_inputs.h"
 #include "predict/predictor.h"
 
 namespace svnet::exports {
@@ -56,6 +57,8 @@ class Original {
     if (part == ModelPart::backbone)
       network_.emplace(model.backbone_graph, model.backbone_parameters,
                        model.backbone_graph.find(model.backbone_output));
+    else if (part == ModelPart::next)
+      network_.emplace(model.next_head, model.next_parameters, model.next_head.output());
     else if (model.frame == frame::FrameChoice::camera)
       predictor_.emplace(model);
     else
@@ -68,6 +71,8 @@ class Original {
       const models::Preprocessing& p = model_.preprocessing;
       sample.picture = drawing(number, p.height + p.height / 4, p.width + p.width / 3);
     }
+    if (part_ == ModelPart::next)
+      sample.pose_inputs = made_up_inputs(number, kPoses, frame::next_input_count(frame_spec(model_)));
     if (part_ == ModelPart::head && predictor_) sample.features = predictor_->embed(sample.picture);
     if (part_ == ModelPart::head && !predictor_)
       sample.pose_inputs = made_up_inputs(number, kPoses, frame::input_count(frame_spec(model_)));
@@ -130,6 +135,11 @@ Agreement agreement(const std::string& name, const Model& model, ModelPart part,
 }
 
 void check_part(const Model& model, ModelPart part) {
+  if (part == ModelPart::next) {
+    check(!model.next_head.nodes().empty(),
+          "[export] the model does not know which view to take next; it must be trained with sv_net.next_view: ridge");
+    return;
+  }
   check(frame::has_backbone(model.frame) || part == ModelPart::head, "[export] the model is in the frame ",
         name_of(model.frame), ", which has no network for the image; export its head with --part head");
   check(model.frame == frame::FrameChoice::camera || part != ModelPart::all, "[export] the model is in the frame ",

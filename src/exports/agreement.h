@@ -15,7 +15,8 @@ namespace svnet::exports {
 struct Sample {
   Image picture;
   std::vector<view::CameraPose> poses;
-  /// Of the head of a model in the frame `camera`: (1, D), of the picture. Of other heads: inputs (M, I).
+  /// Of the head of a model in the frame `camera`: (1, D), of the picture. Of other heads, that of the next view
+  /// included: inputs (M, I).
   Tensor features{}, pose_inputs{};
 };
 

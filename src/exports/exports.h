@@ -24,6 +24,7 @@ struct KerasExport {
 ///   all       inputs image (N, H, W, 3) and angles (N, A), output score (N, 1)
 ///   backbone  input image, output features
 ///   head      of the frame `camera`: inputs features (N, D) and angles (N, A); of others: input pose (N, I)
+///   next      input pose (N, I)
 /// and, if it takes angles, angles.py, which makes them of theta and phi. Throws Error for `all` if the model is in
 /// another frame, or scores several orientations of the image, and if the folder exists and is not empty.
 Agreement export_keras(const Model& model, const std::filesystem::path& folder, const KerasExport& options);

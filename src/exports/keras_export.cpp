@@ -17,6 +17,7 @@ using models::GraphWithParameters;
 
 GraphWithParameters network_of(const Model& model, const KerasExport& options) {
   if (options.part == ModelPart::head) return {model.head, model.head_parameters};
+  if (options.part == ModelPart::next) return {model.next_head, model.next_parameters};
   GraphWithParameters backbone{model.backbone_graph.up_to(model.backbone_graph.find(model.backbone_output)),
                                model.backbone_parameters};
   if (options.preprocessing)
@@ -86,7 +87,8 @@ Agreement export_keras(const Model& model, const std::filesystem::path& folder, 
   const GraphWithParameters network = network_of(model, options);
   io::FreshFolder fresh(folder);
   io::write_keras_model(fresh.path(), network.graph, network.parameters);
-  const bool takes_angles = options.part != ModelPart::backbone && model.frame == frame::FrameChoice::camera;
+  const bool takes_angles = options.part != ModelPart::backbone && options.part != ModelPart::next &&
+                            model.frame == frame::FrameChoice::camera;
   if (takes_angles) io::write_atomically(fresh.path() / "angles.py", angles_text(model.angles));
   const io::KerasModel written = io::read_keras_model(fresh.path());
   const Inference inference(written.graph, written.parameters, written.graph.output());

@@ -24,11 +24,14 @@
 // to heads that compare objects.
 namespace svnet::frame {
 
-/// Inputs of one group share a penalty in a head: phi and axis a small one, the others a larger one.
-enum class InputGroup { phi, axis, shape, heights, turned };
+/// Inputs of one group share a penalty in a head: phi, axis and relation a small one, the others a larger one. relation
+/// and second are groups of next_inputs.h.
+enum class InputGroup { phi, axis, shape, heights, turned, relation, second };
 
 /// Whether inputs of the group say how scores depend on the shape of the object, not what holds for every object.
-constexpr bool is_of_shape(InputGroup group) { return group != InputGroup::phi && group != InputGroup::axis; }
+constexpr bool is_of_shape(InputGroup group) {
+  return group != InputGroup::phi && group != InputGroup::axis && group != InputGroup::relation;
+}
 
 struct PoseInputOptions {
   bool axis = true;      ///< the group axis
@@ -41,7 +44,9 @@ constexpr auto enum_table(InputGroup) {
                                               {InputGroup::axis, "axis"},
                                               {InputGroup::shape, "shape"},
                                               {InputGroup::heights, "heights"},
-                                              {InputGroup::turned, "turned"}});
+                                              {InputGroup::turned, "turned"},
+                                              {InputGroup::relation, "relation"},
+                                              {InputGroup::second, "second"}});
 }
 
 /// E, S, F, T and W above: the shape of an object, whatever the camera pose. E, S and F are NaN if the axis is unclear,

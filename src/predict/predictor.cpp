@@ -26,6 +26,7 @@ Predictor::Predictor(const Model& model, const InferenceOptions& options)
   if (frame::has_backbone(model.frame))
     backbone_.emplace(model.backbone_graph, model.backbone_parameters, model.backbone_graph.find(model.backbone_output),
                       inference_options(model, options));
+  if (!model.next_head.nodes().empty()) next_.emplace(model, inference_options(model, options));
 }
 
 Tensor Predictor::embed(const Image& top, const DepthImage* depth) const {
@@ -85,6 +86,28 @@ Tensor Predictor::values_of_turns(const Image& top) const {
 
 std::vector<float> Predictor::scores(const Tensor& features, std::span<const view::CameraPose> poses) const {
   return head_.scores(features, poses);
+}
+
+std::vector<float> Predictor::next_scores(const Tensor& features, std::span<const frame::TakenView> taken,
+                                          std::span<const view::CameraPose> poses) const {
+  check(features.defined() && features.dtype() == DType::f32, "[predict] features are not float32");
+  std::vector<float> result(poses.size());
+  Workspace workspace;
+  workspace.head.owns_arenas = false;
+  next_scores(features.values<float>(), taken, poses, result, workspace);
+  return result;
+}
+
+void Predictor::next_scores(std::span<const float> features, std::span<const frame::TakenView> taken,
+                            std::span<const view::CameraPose> poses, std::span<float> scores,
+                            Workspace& workspace) const {
+  check(next_.has_value(),
+        "[predict] the model does not know which view to take next; it must be trained with sv_net.next_view: ridge");
+  check(static_cast<Index>(features.size()) == feature_count(), "[predict] there are ", features.size(),
+        " features, the model expects ", feature_count());
+  const double trust = familiarity(features, workspace).trust;
+  workspace.next.owns_arenas = workspace.head.owns_arenas;
+  next_->scores(features, trust, taken, poses, scores, workspace.next);
 }
 
 std::string Predictor::description() const {

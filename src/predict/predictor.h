@@ -9,6 +9,7 @@
 #include "io/models/model_file.h"
 #include "nn/runtime/inference.h"
 #include "predict/gain.h"
+#include "predict/next_head.h"
 #include "predict/score_head.h"
 #include "predict/view_choice.h"
 #include "view/camera_pose.h"
@@ -18,7 +19,7 @@ namespace svnet::predict {
 /// What a Predictor keeps between calls, so that later calls of the same sizes allocate nothing. One call at a time may
 /// use it, and one Predictor only.
 struct Workspace {
-  ScoreWorkspace head{};
+  ScoreWorkspace head{}, next{};
   Inference::Arena backbone{};
   Tensor images{};  ///< the input of the backbone
   ResizeBuffers resizing{};
@@ -61,6 +62,16 @@ class Predictor {
   /// Whether gain() knows; otherwise it throws.
   bool knows_gain() const { return !gain_.residuals.empty(); }
 
+  /// Whether next_scores() knows; otherwise it throws.
+  bool knows_next_view() const { return next_.has_value(); }
+
+  /// NextHead::scores of features that embed has returned, when views of the object were taken. Throws Error unless the
+  /// features are feature_count() finite floats, for poses out of range, and without a taken view.
+  std::vector<float> next_scores(const Tensor& features, std::span<const frame::TakenView> taken,
+                                 std::span<const view::CameraPose> poses) const;
+  void next_scores(std::span<const float> features, std::span<const frame::TakenView> taken,
+                   std::span<const view::CameraPose> poses, std::span<float> scores, Workspace& workspace) const;
+
   /// ScoreHead::scores of features that embed has returned.
   std::vector<float> scores(const Tensor& features, std::span<const view::CameraPose> poses) const;
   void scores(std::span<const float> features, std::span<const view::CameraPose> poses, std::span<float> scores,
@@ -79,6 +90,7 @@ class Predictor {
   GainCalibration gain_;
   std::optional<Inference> backbone_;  // of all frames but `axis`
   ScoreHead head_;
+  std::optional<NextHead> next_;
 };
 
 }  // namespace svnet::predict

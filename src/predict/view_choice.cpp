@@ -34,4 +34,20 @@ std::size_t best_views(std::span<const float> scores, std::span<const view::Came
   return best_views(scores, poses, min_angle_deg, chosen, nearest);
 }
 
+bool is_apart(const view::CameraPose& pose, std::span<const frame::TakenView> taken, double min_angle_deg) {
+  const double least = std::max(min_angle_deg - view::kAngleTolerance_deg, view::kAngleTolerance_deg);
+  return std::ranges::all_of(
+      taken, [&](const frame::TakenView& view) { return view::angle_between_deg(pose, view.pose) >= least; });
+}
+
+std::optional<std::size_t> next_view(std::span<const float> scores, std::span<const view::CameraPose> poses,
+                                     std::span<const frame::TakenView> taken, double min_angle_deg) {
+  check(min_angle_deg >= 0 && min_angle_deg <= 180, "[predict] the least angle is ", min_angle_deg,
+        " degrees, expected 0 to 180");
+  std::optional<std::size_t> best;
+  for (std::size_t i = 0; i < poses.size(); ++i)
+    if (is_apart(poses[i], taken, min_angle_deg) && (!best || scores[i] > scores[*best])) best = i;
+  return best;
+}
+
 }  // namespace svnet::predict

@@ -1,8 +1,10 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "frame/next_inputs.h"
 #include "view/camera_pose.h"
 
 // Choices among camera poses by their scores.
@@ -24,5 +26,14 @@ std::size_t best_views(std::span<const float> scores, std::span<const view::Came
 /// The same with memory of its own.
 std::size_t best_views(std::span<const float> scores, std::span<const view::CameraPose> poses, double min_angle_deg,
                        std::span<std::size_t> chosen);
+
+/// Whether the pose is another one than those taken, and at least min_angle_deg from each of them, less 1e-4 degrees for
+/// rounding.
+bool is_apart(const view::CameraPose& pose, std::span<const frame::TakenView> taken, double min_angle_deg);
+
+/// The index of the highest score among the poses that are apart from the taken ones; none if no pose is. Requires one
+/// score per pose. Throws Error unless the angle is in [0, 180].
+std::optional<std::size_t> next_view(std::span<const float> scores, std::span<const view::CameraPose> poses,
+                                     std::span<const frame::TakenView> taken, double min_angle_deg);
 
 }  // namespace svnet::predict

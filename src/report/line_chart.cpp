@@ -45,9 +45,10 @@ std::string line_chart(const LineChart& chart) {
   std::string inner = svg_text(0, 14, chart.title, "start", "title");
   for (const double tick : y.ticks())
     inner += tick_line(y.place(tick)) + svg_text(kChartLeft - 8, y.place(tick) + 4, y.tick_text(tick), "end", "tick");
-  inner += svg_text(kChartLeft, kChartBottom + 18, "epoch 1", "start", "tick") +
-           svg_text(kChartRight, kChartBottom + 18, std::to_string(epochs), "end", "tick");
-  std::string alternative = chart.title + " by epoch.";
+  inner +=
+      svg_text(kChartLeft, kChartBottom + 18, chart.first, "start", "tick") +
+      svg_text(kChartRight, kChartBottom + 18, chart.last.empty() ? std::to_string(epochs) : chart.last, "end", "tick");
+  std::string alternative = chart.title + " " + chart.along + ".";
   std::vector<EndLabel> labels;
   for (std::size_t l = 0; l < chart.lines.size(); ++l) {
     const Line& line = chart.lines[l];

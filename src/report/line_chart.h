@@ -4,7 +4,7 @@
 
 namespace svnet::report {
 
-/// Values of epochs 1, 2, …; NaN: none.
+/// Values of epochs 1, 2, …, or of the steps of the chart; NaN: none.
 struct Line {
   std::string label;
   std::vector<double> values;
@@ -13,6 +13,9 @@ struct Line {
 struct LineChart {
   std::string title;
   std::vector<Line> lines;
+  /// What the horizontal axis says at its two ends, and what it counts.
+  std::string first{"epoch 1"}, last{};  ///< last empty: the number of the last epoch
+  std::string along{"by epoch"};
 };
 
 /// The chart as SVG, with each line's label at its end; nothing if no line has a value.

@@ -1,8 +1,11 @@
 #include "report/tables_section.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/text.h"
 #include "report/dot_plot.h"
+#include "report/line_chart.h"
 #include "report/markup.h"
 #include "report/names.h"
 #include "report/page.h"
@@ -102,6 +105,38 @@ std::string folds_html(const RunReport& report) {
          table;
 }
 
+/// What moving the camera in a share of the poses gives: a line per pipeline; nothing unless the table has the
+/// selectors.
+std::string moves_html(const Table& table) {
+  std::vector<std::size_t> steps;
+  for (const char* name : {"top", "move_25", "move_50", "move_75", "svnet"}) {
+    const auto at = std::find(table.selectors.begin(), table.selectors.end(), name);
+    if (at == table.selectors.end()) return "";
+    steps.push_back(static_cast<std::size_t>(at - table.selectors.begin()));
+  }
+  std::string plots;
+  for (std::size_t metric = 0; metric < train::kMetrics.size(); ++metric) {
+    LineChart chart{.title = train::kMetrics[metric].title,
+                    .lines = {},
+                    .first = "0 % moved",
+                    .last = "100 %",
+                    .along = "by the share of poses in which the camera moved"};
+    for (std::size_t p = 0; p < table.pipelines.size(); ++p) {
+      Line line{table.pipelines[p], {}};
+      for (const std::size_t step : steps) line.values.push_back(table.cells[p][step][metric].mean);
+      chart.lines.push_back(std::move(line));
+    }
+    plots += figure(line_chart(chart));
+  }
+  return element("h4", "Moving only where it pays") + "\n" +
+         how_to_read(
+             "The camera stays above, or moves to SV-net's view where SV-net expects most of it: from no pose on the "
+             "left to all of them on the right, in steps of a quarter. A line that rises fast on the left says that "
+             "few moves give most of what all give; a line that sags says that views from above and from the side do "
+             "not mix well.") +
+         element("div", {{"class", "plots"}}, "\n" + plots) + "\n";
+}
+
 std::string table_section(const Table& table) {
   std::string html = element("h3", table.held_out ? "Held-out categories" : "Training categories") + "\n";
   if (const std::string leads = lead_plots_html(table); !leads.empty())
@@ -120,7 +155,7 @@ std::string table_section(const Table& table) {
   std::string plots;
   for (std::size_t metric = 0; metric < train::kMetrics.size(); ++metric)
     plots += figure(dot_plot(level_plot(table, metric)));
-  return html + element("div", {{"class", "plots"}}, "\n" + plots) + "\n";
+  return html + element("div", {{"class", "plots"}}, "\n" + plots) + "\n" + moves_html(table);
 }
 
 }  // namespace

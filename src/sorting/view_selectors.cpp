@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/parallel_progress.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
 #include "semantics/semantic_scores.h"
@@ -49,19 +50,12 @@ std::vector<double> semantic_scores_of(const ViewDataset& dataset, std::span<con
 
 std::vector<double> predicted_scores(const ViewDataset& dataset, const predict::Predictor& predictor,
                                      const Messages& messages, Parallel& parallel) {
-  const auto count = static_cast<Index>(dataset.poses.size());
   std::vector<double> predicted(dataset.views.size());
-  Progress progress(messages, "predictions of top views", count);
-  constexpr Index kBlock = 16;
-  for (Index block = 0; block < count; block += kBlock) {
-    const Index size = std::min(kBlock, count - block);
-    parallel.for_chunks(size, 1, [&](Index begin, Index end, int) {
-      for (Index pose = block + begin; pose < block + end; ++pose)
+  for_each_with_progress(
+      parallel, messages, "predictions of top views", static_cast<Index>(dataset.poses.size()), [&](Index pose) {
         std::ranges::copy(scores_of_pose(dataset, pose, predictor),
                           predicted.begin() + dataset.poses[static_cast<std::size_t>(pose)].first_view);
-    });
-    progress.update(block + size);
-  }
+      });
   return predicted;
 }
 
@@ -73,11 +67,9 @@ std::vector<train::Selector> view_selectors(const ViewDataset& dataset, std::spa
       {"top", train::top_views(dataset)}, {"rand", {}}, {"broadside", train::broadside_views(dataset, frames)}};
   if (!predicted.empty()) {
     const std::vector<std::int32_t> best = train::best_views(dataset, predicted);
-    train::Selector both{"top_svnet", {}, 2};
-    for (std::size_t pose = 0; pose < best.size(); ++pose)
-      both.view.insert(both.view.end(), {static_cast<std::int32_t>(dataset.poses[pose].top_view), best[pose]});
     selectors.push_back({"svnet", best});
-    selectors.push_back(std::move(both));
+    selectors.push_back({"top_svnet", train::views_beside(dataset, train::top_views(dataset), predicted, 2), 2});
+    selectors.push_back({"move_50", train::moved_views(dataset, predicted, 0.5)});
     selectors.push_back({train::name_with_views("svnet", 2), train::view_sets(dataset, predicted, 2), 2});
   }
   selectors.push_back(

@@ -22,6 +22,7 @@ std::vector<double> predicted_scores(const ViewDataset& dataset, const predict::
 ///   broadside  the view at phi 45 across the object's axis, a fixed rule
 ///   svnet      the view with the best score of `predicted`
 ///   top_svnet  the top view and that view, for no more moves
+///   move_50    that view for the half of the objects that gain most by the predictions, the top view for the others
 ///   svnet_2    the two views to take together, by `predicted`
 ///   opt        the limit: the view with the best semantic score, of kOptProblems problems of the dataset's categories
 /// Those of svnet only if `predicted` is not empty. `features`: (views, dimension).

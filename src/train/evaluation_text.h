@@ -19,8 +19,8 @@ std::string table_text(const EvaluationTable& table, const std::string& title);
 std::string columns_text(const EvaluationTables& tables);
 
 /// {"format": 1, "problems", "tables": {split: {pipeline: {selector: {metric: {"mean", "standard_error", "low",
-/// "high"}}}}}, "differences": {split: {pipeline: {"svnet-rand": {metric: {"mean", "low", "high"}}}}}}. "low" and "high"
-/// are null if there are too few categories for an interval.
+/// "high"}}}}}, "differences": {split: {pipeline: {"svnet-rand": {metric: {"mean", "low", "high"}}}}}}. "low" and
+/// "high" are null if there are too few categories for an interval.
 std::string tables_json(const EvaluationTables& tables);
 
 /// {pipeline: {"svnet-rand": {metric: {"mean", "low", "high"}}}} of one table; empty if it does not have SV-net.

@@ -13,7 +13,8 @@ struct PoseGain {
   double gain;    ///< of the scores themselves
 };
 
-/// Of each pose with a top view, unless that is the best predicted view. `predicted`: the centred score of each example. Requires examples.top.
+/// Of each pose with a top view, unless that is the best predicted view. `predicted`: the centred score of each
+/// example. Requires examples.top.
 std::vector<PoseGain> gains_of(const PoseExamples& examples, std::span<const double> predicted);
 
 /// Gains by a line, whose slope is not negative, and the quantiles of what it leaves over. Not known for fewer than ten

@@ -155,17 +155,21 @@ std::string tried_text(const std::vector<TriedHead>& tried) {
   return joined_with(", ", texts);
 }
 
+void set_linear(Parameters& parameters, const RidgeFit& fit, double factor) {
+  const auto inputs = static_cast<Index>(fit.weights.size());
+  Tensor kernel = Tensor::empty({inputs, 1}), bias = Tensor::empty({1});
+  for (Index i = 0; i < inputs; ++i)
+    kernel.data<float>()[i] = static_cast<float>(factor * fit.weights[static_cast<std::size_t>(i)]);
+  bias.data<float>()[0] = static_cast<float>(factor * fit.bias);
+  parameters.set("ridge/kernel", kernel);
+  parameters.set("ridge/bias", bias);
+}
+
 void set_head(Model& model, const HeadFit& head) {
   const auto inputs = static_cast<Index>(head.ridge.weights.size()),
              networks = static_cast<Index>(head.networks.size());
   // With the linear part alone the factor is in its kernel, otherwise in the last layer.
-  const double factor = networks == 0 ? models::kLogitPerScore : 1;
-  Tensor kernel = Tensor::empty({inputs, 1}), bias = Tensor::empty({1});
-  for (Index i = 0; i < inputs; ++i)
-    kernel.data<float>()[i] = static_cast<float>(factor * head.ridge.weights[static_cast<std::size_t>(i)]);
-  bias.data<float>()[0] = static_cast<float>(factor * head.ridge.bias);
-  model.head_parameters.set("ridge/kernel", kernel);
-  model.head_parameters.set("ridge/bias", bias);
+  set_linear(model.head_parameters, head.ridge, networks == 0 ? models::kLogitPerScore : 1);
   if (networks == 0) {
     model.head = models::linear_head(inputs);
     return;

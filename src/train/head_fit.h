@@ -44,6 +44,9 @@ std::vector<double> predictions(const HeadFit& head, const PoseExamples& example
 /// "ridge .255, network .244, both .261", Spearman's correlations.
 std::string tried_text(const std::vector<TriedHead>& tried);
 
+/// Puts a linear function, times `factor`, into the parameters of models::linear_head or of the linear part of a head.
+void set_linear(Parameters& parameters, const RidgeFit& fit, double factor);
+
 /// Puts the head's graph and parameters into the model.
 void set_head(Model& model, const HeadFit& head);
 

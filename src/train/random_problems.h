@@ -3,6 +3,7 @@
 
 #include "data/view_dataset.h"
 #include "semantics/clustering_problems.h"
+#include "semantics/view_sets.h"
 #include "train/config/config.h"
 
 namespace svnet::train {
@@ -15,5 +16,9 @@ Index fewest_categories(const std::vector<bool>& excluded, const Config::Scores&
 semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const std::vector<bool>& excluded,
                                                   const Config::Scores& config,
                                                   const semantics::ViewWeights& weights = {});
+
+/// The random problems of sets of views of the same poses, which are uniform. Throws Error as above.
+semantics::ClusteringProblems clustering_problems(const ViewDataset& dataset, const semantics::ViewSets& sets,
+                                                  const Config::Scores& config);
 
 }  // namespace svnet::train

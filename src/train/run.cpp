@@ -45,7 +45,9 @@ void check_config(const Run& run) {
       static_cast<void>(top_depth_file(run.dataset, static_cast<Index>(pose)));
   for (const auto& name : config.evaluation.pipelines)
     check_backbone(parse_pipeline(name, "evaluation.pipelines").backbone, "");
-  static_cast<void>(selectors_of_table(config.evaluation.selectors, Split::training));
+  for (const SelectorKind* kind : selectors_of_table(config.evaluation.selectors, Split::training))
+    check(kind->fewest <= config.evaluation.views, "evaluation.selectors: ", kind->name, " chooses ", kind->fewest,
+          " views or more; set evaluation.views to that many");
   static_cast<void>(validation_categories(run.held_out, config));
   clustering_problems(run.dataset, run.held_out, config.scores);
   if (run.has_held_out_problems()) clustering_problems(run.dataset, run.training_categories(), config.scores);

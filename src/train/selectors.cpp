@@ -15,24 +15,38 @@ namespace svnet::train {
 namespace {
 
 const SelectorKind kSelectors[] = {
-    {"top", "the top view", true, true, false, [](const SelectorInputs& in, Index) { return top_views(in.dataset); }},
-    {"rand", "a random view, drawn for each problem", true, true, true,
+    {"top", "the top view", true, true, 1, 1, [](const SelectorInputs& in, Index) { return top_views(in.dataset); }},
+    {"rand", "a random view, drawn for each problem", true, true, 1, kMostViews,
      [](const SelectorInputs&, Index) { return std::vector<std::int32_t>(); }},
-    {"broadside", "the view at phi 45 across the object's axis, a fixed rule", false, false, false,
+    {"broadside", "the view at phi 45 across the object's axis, a fixed rule", false, false, 1, 1,
      [](const SelectorInputs& in, Index) { return broadside_views(in.dataset, in.frames()); }},
-    {"phi_map", "a view at the elevation with the best mean training score, a fixed rule", false, false, false,
+    {"phi_map", "a view at the elevation with the best mean training score, a fixed rule", false, false, 1, 1,
      [](const SelectorInputs& in, Index) { return phi_map_views(in.dataset, in.training_scores.individual); }},
-    {"opt_glob", "the view with the best global score", true, false, true,
+    {"opt_glob", "the view with the best global score", true, false, 1, kMostViews,
      [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().global, views); }},
-    {"opt_ind", "the view with the best individual score", true, false, true,
+    {"opt_ind", "the view with the best individual score", true, false, 1, kMostViews,
      [](const SelectorInputs& in, Index views) { return best_views(in.dataset, in.scores().individual, views); }},
-    {"svnet", "the view with the best score that SV-net predicts", false, true, true,
+    {"svnet", "the view with the best score that SV-net predicts", false, true, 1, kMostViews,
      [](const SelectorInputs& in, Index views) { return view_sets(in.dataset, in.predicted, views); }},
-    {"move_25", "SV-net's view where it expects most of it, in 25 % of the poses; else the top view", false, false,
-     false, [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.25); }},
-    {"move_50", "the same in 50 % of the poses", false, false, false,
+    {"next", "SV-net's view, then those that sv_net.next_view ranks best given the pictures taken", false, false, 2,
+     kMostViews,
+     [](const SelectorInputs& in, Index views) {
+       return views_after(in.dataset, best_views(in.dataset, in.predicted), in.next, views);
+     }},
+    {"top_svnet", "the top view and SV-net's", false, false, 2, kMostViews,
+     [](const SelectorInputs& in, Index views) {
+       return views_beside(in.dataset, top_views(in.dataset), in.predicted, views);
+     }},
+    {"top_next", "the top view, then those that sv_net.next_view ranks best given the pictures taken", false, false, 2,
+     kMostViews,
+     [](const SelectorInputs& in, Index views) {
+       return views_after(in.dataset, top_views(in.dataset), in.next, views);
+     }},
+    {"move_25", "SV-net's view where it expects most of it, in 25 % of the poses; else the top view", false, false, 1,
+     1, [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.25); }},
+    {"move_50", "the same in 50 % of the poses", false, false, 1, 1,
      [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.5); }},
-    {"move_75", "the same in 75 % of the poses", false, false, false,
+    {"move_75", "the same in 75 % of the poses", false, false, 1, 1,
      [](const SelectorInputs& in, Index) { return moved_views(in.dataset, in.predicted, 0.75); }},
 };
 
@@ -76,7 +90,7 @@ std::vector<Selector> chosen_by(std::span<const SelectorKind* const> kinds, cons
   std::vector<Selector> selectors;
   for (Index views = 1; views <= most_views; ++views)
     for (const SelectorKind* kind : kinds)
-      if (views == 1 || kind->several)
+      if (kind->fewest <= views && views <= kind->most)
         selectors.push_back({name_with_views(kind->name, views), kind->view(inputs, views), views});
   return selectors;
 }
@@ -189,6 +203,45 @@ std::vector<std::int32_t> view_sets(const ViewDataset& dataset, std::span<const 
       views[p * chosen.size() + i] = static_cast<std::int32_t>(pose.first_view + static_cast<Index>(chosen[i % found]));
   }
   return views;
+}
+
+namespace {
+
+/// The scores without those of some views, which are not chosen again.
+std::vector<double> without(std::span<const double> scores, std::span<const std::int32_t> views) {
+  std::vector<double> rest(scores.begin(), scores.end());
+  for (const std::int32_t view : views) rest[static_cast<std::size_t>(view)] = std::numeric_limits<double>::quiet_NaN();
+  return rest;
+}
+
+/// Puts `more` views of each pose after `count` of each.
+std::vector<std::int32_t> appended(std::span<const std::int32_t> views, Index count,
+                                   std::span<const std::int32_t> others, Index more) {
+  std::vector<std::int32_t> all;
+  for (std::size_t i = 0, j = 0; i < views.size(); i += static_cast<std::size_t>(count)) {
+    all.insert(all.end(), views.begin() + static_cast<std::ptrdiff_t>(i),
+               views.begin() + static_cast<std::ptrdiff_t>(i) + count);
+    for (Index k = 0; k < more; ++k) all.push_back(others[j++]);
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<std::int32_t> views_after(const ViewDataset& dataset, const std::vector<std::int32_t>& first,
+                                      const NextScores& next, Index count) {
+  check(next != nullptr,
+        "evaluation.selectors: the model does not know which view to take next; train it with sv_net.next_view: ridge");
+  std::vector<std::int32_t> views = first;
+  for (Index taken = 1; taken < count; ++taken)
+    views = appended(views, taken, best_views(dataset, without(next(views, taken), views)), 1);
+  return views;
+}
+
+std::vector<std::int32_t> views_beside(const ViewDataset& dataset, const std::vector<std::int32_t>& first,
+                                       std::span<const double> scores, Index count) {
+  if (count == 1) return first;
+  return appended(first, 1, view_sets(dataset, without(scores, first), count - 1), count - 1);
 }
 
 }  // namespace svnet::train

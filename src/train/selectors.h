@@ -24,6 +24,9 @@ struct ViewScores {
   std::span<const double> individual, global;
 };
 
+/// Scores of every view for the next view, when `per_pose` views of each pose were taken: (poses, per_pose) indices.
+using NextScores = std::function<std::vector<double>(std::span<const std::int32_t> taken, Index per_pose)>;
+
 /// What selectors may base their choice on.
 struct SelectorInputs {
   const ViewDataset& dataset;
@@ -31,6 +34,7 @@ struct SelectorInputs {
   std::span<const double> predicted;   ///< SV-net's score of every view
   const Scores& training_scores;       ///< of the training categories
   std::function<const std::vector<frame::TopFrame>&()> frames;  ///< of every pose; computed on the first call
+  NextScores next{};                                            ///< empty: the model does not know
 };
 
 /// Which categories a table covers.
@@ -41,7 +45,7 @@ struct SelectorKind {
   const char* name;
   const char* help;               ///< what it chooses, in a few words
   bool of_training, of_held_out;  ///< whether it is a default of the split's table
-  bool several;                   ///< whether it can choose more than one view of an object
+  Index fewest, most;             ///< views of an object that it can choose
   /// (poses, views), as in Selector.
   std::vector<std::int32_t> (*view)(const SelectorInputs& inputs, Index views);
 };
@@ -53,10 +57,10 @@ std::span<const SelectorKind> selector_kinds();
 /// the nearest name if a name is unknown.
 std::vector<const SelectorKind*> selectors_of_table(const std::vector<std::string>& names, Split split);
 
+inline constexpr Index kMostViews = 8;
 /// What these selectors choose of one view, then those that can of 2, …, `most_views` views: "svnet", "svnet_2".
 std::vector<Selector> chosen_by(std::span<const SelectorKind* const> kinds, const SelectorInputs& inputs,
                                 Index most_views);
-inline constexpr Index kMostViews = 8;
 std::string name_with_views(const std::string& selector, Index views);
 
 /// The top view of each pose.
@@ -77,6 +81,15 @@ std::vector<std::int32_t> best_views(const ViewDataset& dataset, std::span<const
 /// The best view of the `share` of poses in which its score is the most above that of the top view, and the top view of
 /// the others.
 std::vector<std::int32_t> moved_views(const ViewDataset& dataset, std::span<const double> scores, double share);
+
+/// `first`, a view of each pose, and those to take after it, one after the other: each time the one with the highest
+/// score given the views that were taken so far; `count` of each pose in all. Throws Error if `next` is empty.
+std::vector<std::int32_t> views_after(const ViewDataset& dataset, const std::vector<std::int32_t>& first,
+                                      const NextScores& next, Index count);
+
+/// `first`, a view of each pose, and then count - 1 other ones as view_sets chooses them.
+std::vector<std::int32_t> views_beside(const ViewDataset& dataset, const std::vector<std::int32_t>& first,
+                                       std::span<const double> scores, Index count);
 
 /// `count` views of each pose to take together, each judged beside those already chosen (view/view_set.h), otherwise as
 /// best_views. For one view they are the same.

@@ -1,8 +1,7 @@
 #include "train/top_frames.h"
 
-#include <algorithm>
-
 #include "base/error.h"
+#include "base/parallel_progress.h"
 #include "base/sha256.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_file.h"
@@ -34,18 +33,10 @@ std::filesystem::path top_depth_file(const ViewDataset& dataset, Index pose) {
 
 std::vector<frame::TopFrame> top_frames(const ViewDataset& dataset, frame::DepthChoice depth, const Messages& messages,
                                         Parallel& parallel) {
-  const auto count = static_cast<Index>(dataset.poses.size());
   std::vector<frame::TopFrame> frames(dataset.poses.size());
-  Progress progress(messages, "frames of top views", count);
-  constexpr Index kBlock = 64;
-  for (Index block = 0; block < count; block += kBlock) {
-    const Index size = std::min(kBlock, count - block);
-    parallel.for_chunks(size, 1, [&](Index begin, Index end, int) {
-      for (Index pose = block + begin; pose < block + end; ++pose)
-        frames[static_cast<std::size_t>(pose)] = frame::from_values(frame::to_values(frame_of(dataset, pose, depth)));
-    });
-    progress.update(block + size);
-  }
+  for_each_with_progress(parallel, messages, "frames of top views", static_cast<Index>(frames.size()), [&](Index pose) {
+    frames[static_cast<std::size_t>(pose)] = frame::from_values(frame::to_values(frame_of(dataset, pose, depth)));
+  });
   return frames;
 }
 

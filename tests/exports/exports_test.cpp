@@ -59,6 +59,9 @@ TEST_CASE("parts, precisions and opsets of an ONNX export agree with the model")
     }
     const Agreement axis = export_onnx(small_axis_model(), path, {.part = ModelPart::head, .precision = precision});
     CHECK(axis.largest_difference <= 1e-6);  // so small a head is not rounded
+    Model knows = small_turned_model();
+    set_small_next_head(knows);
+    CHECK(export_onnx(knows, path, {.part = ModelPart::next, .precision = precision}).largest_difference <= bound);
   }
   CHECK(export_onnx(small_model(), path, {.part = ModelPart::backbone}).largest_difference < 1e-6);
   CHECK(export_onnx(small_turned_model(), path, {.part = ModelPart::backbone}).largest_difference < 1e-6);
@@ -79,6 +82,8 @@ TEST_CASE("exports of parts that a model does not have are refused") {
   CHECK_THROWS_WITH(export_onnx(small_turned_model(), path, {}),
                     Contains("frame turned") && Contains("--part backbone and --part head"));
   CHECK_THROWS_WITH(export_keras(small_axis_model(), path, {}), Contains("export its head with --part head"));
+  CHECK_THROWS_WITH(export_onnx(small_axis_model(), path, {.part = ModelPart::next}),
+                    Contains("does not know which view to take next"));
   CHECK_THROWS_WITH(export_keras(small_turned_model(), path, {}), Contains("--part backbone and --part head"));
   Model symmetric = small_model();
   symmetric.symmetries = 8;
@@ -117,6 +122,9 @@ TEST_CASE("a Keras export agrees with the model, and is a folder that appears as
   symmetric.symmetries = 8;
   CHECK(export_keras(symmetric, folder.path() / "head", {.part = ModelPart::head}).largest_difference < 1e-6);
   CHECK(export_keras(small_axis_model(), folder.path() / "axis", {.part = ModelPart::head}).largest_difference < 1e-6);
+  Model knows = small_axis_model();
+  set_small_next_head(knows);
+  CHECK(export_keras(knows, folder.path() / "next", {.part = ModelPart::next}).largest_difference < 1e-6);
   CHECK_THROWS_WITH(export_keras(small_model(), folder.path() / "raw", {}), Contains("raw"));
 }
 

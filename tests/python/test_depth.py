@@ -96,3 +96,23 @@ def test_quarter_turns_turn_the_scores(axis_model, depth_model):
                 np.rot90(image, turns), [[theta + 90 * turns, phi] for theta, phi in POSES], np.rot90(depth, turns)
             )
             np.testing.assert_allclose(turned, expected, atol=1e-5)
+
+
+def test_the_next_view_depends_on_the_pictures_taken(axis_model):
+    image, _ = hammer()
+    assert axis_model.knows_next_view is True
+    taken = [(0, 45, image), (90, 90, np.rot90(image))]
+    index, scores = axis_model.next_view(image, taken, POSES)
+    assert scores.dtype == np.float32 and scores.shape == (5,)
+    assert index == max((1, 2, 3), key=lambda i: scores[i])  # 0 and 4 were taken
+    plain = np.full_like(image, 120)
+    assert (axis_model.next_view(image, [(0, 45, plain), (90, 90, image)], POSES)[1] != scores).all()
+    assert axis_model.next_view(image, taken, POSES, min_angle_deg=180)[0] is None
+    for wrong, message in [
+        ([], "taken is empty"),
+        ("ab", "taken is no list"),
+        ([(0, 45)], r"taken\[0\] is not \(theta, phi, picture\)"),
+        ([(0, -5, image)], "phi -5 is outside"),
+    ]:
+        with pytest.raises(svnet.Error, match=message):
+            axis_model.next_view(image, wrong, POSES)

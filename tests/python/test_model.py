@@ -81,6 +81,12 @@ def test_gain_is_not_known_in_the_frame_camera(model, image):
         model.gain(image, POSES)
 
 
+def test_the_next_view_is_not_known_to_a_model_that_has_not_learned_it(model, image):
+    assert model.knows_next_view is False
+    with pytest.raises(svnet.Error, match="it must be trained with sv_net.next_view: ridge"):
+        model.next_view(image, [(45, 60, image)], POSES)
+
+
 def test_margin(model, image, expected):
     top = model.score(image, [[90, 90]])[0]
     np.testing.assert_allclose(model.margin(image, POSES), expected.max() - top, atol=1e-6)

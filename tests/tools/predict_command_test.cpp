@@ -250,3 +250,40 @@ TEST_CASE("svnet-predict chooses among the views of a data set, and shows the on
   const Ran grid = place.run("model.safetensors --image data --json --grid --quiet");
   CHECK(nlohmann::json::parse(grid.out).at("images").at(0).at("views").size() == paper_grid().size());
 }
+
+TEST_CASE("svnet-predict ranks the next view after those taken") {
+  const Workplace place;
+  Model model = small_axis_model();
+  set_small_next_head(model);
+  write_model(place.folder.path() / "next.safetensors", model);
+  const Image top = frame::picture_of(frame::letter_t(1.2, 33)), view = frame::picture_of(frame::wedge(1, 0.4, 10));
+  write_png(place.folder.path() / "hammer.png", top);
+  write_png(place.folder.path() / "view.png", view);
+  const Predictor predictor(model);
+  const std::vector<frame::TakenView> taken{{{45, 60}, frame::view_shape(view)}, {{90, 90}, frame::view_shape(top)}};
+  std::vector<CameraPose> poses;
+  for (const CameraPose& pose : paper_grid())
+    if (is_apart(pose, taken, 20)) poses.push_back(pose);
+  REQUIRE(poses.size() < paper_grid().size() - 2);
+  const std::vector<float> scores = predictor.next_scores(predictor.embed(top), taken, poses);
+  const std::string arguments =
+      "next.safetensors --image hammer.png --taken 45,60=view.png --taken 90,90=hammer.png --min-angle 20";
+  const Ran ran = place.run(arguments + " --json");
+  INFO(ran.err);
+  const auto json = nlohmann::json::parse(ran.out);
+  CHECK_FALSE(json.contains("margin_over_top"));
+  REQUIRE(json.at("views").size() == poses.size());
+  const CameraPose& best = poses[best_view(scores)];
+  CHECK(json.at("best").at("theta_deg") == best.theta_deg);
+  CHECK(json.at("best").at("phi_deg") == best.phi_deg);
+  CHECK(place.run(arguments + " --plot next.png").status == 0);
+
+  const auto error = [&](const std::string& with) { return place.run(with).err; };
+  CHECK_THAT(error("model.safetensors --image hammer.png --taken 45,60=view.png"),
+             Catch::Contains("model.safetensors: does not know which view to take next"));
+  CHECK_THAT(error("next.safetensors --image hammer.png --taken 45,60"),
+             Catch::Contains("'45,60' is not THETA,PHI=FILE, such as 45,60=view.png"));
+  CHECK_THAT(error("next.safetensors --image hammer.png --taken 45,95=view.png"), Catch::Contains("phi 95 is outside"));
+  CHECK_THAT(error("next.safetensors --image hammer.png --taken 45,60=none.png"), Catch::Contains("none.png"));
+  CHECK(place.run("next.safetensors --image hammer.png --taken 45,60=view.png --views 2").status == 2);
+}

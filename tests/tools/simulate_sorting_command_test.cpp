@@ -98,7 +98,7 @@ TEST_CASE("svnet-simulate-sorting leaves out what the model was trained on") {
   const Json json = Json::parse(ran.out);
   CHECK(json.at("categories") == Json({"ball", "cone", "cube"}));
   CHECK(names_of_rows(json) ==
-        std::vector<std::string>{"top", "rand", "broadside", "svnet", "top_svnet", "svnet_2", "opt"});
+        std::vector<std::string>{"top", "rand", "broadside", "svnet", "top_svnet", "move_50", "svnet_2", "opt"});
   CHECK(json.at("selectors")[4].at("views") == 2);
   CHECK(json.at("selectors")[4].at("moves") == json.at("selectors")[3].at("moves"));
 

@@ -290,7 +290,8 @@ TEST_CASE("a key changes the fingerprint of its stage, those of later stages, an
     if (key.name == "preset") continue;  // it sets keys of all stages
     const std::string value = another_value(key);
     REQUIRE(value != key.default_value);
-    const std::string frame = key.name == "sv_net.depth" ? "sv_net.frame=axis" : "sv_net.frame=camera";
+    const bool needs_axis = key.name == "sv_net.depth" || key.name == "sv_net.next_view";
+    const std::string frame = needs_axis ? "sv_net.frame=axis" : "sv_net.frame=camera";
     const auto before = fingerprints(parse(kBase, {pipelines, frame}));
     const auto after = fingerprints(parse(kBase, {pipelines, frame, key.name + "=" + value}));
     const Stage stages[] = {Stage::scores, Stage::model, Stage::evaluation};

@@ -18,6 +18,7 @@
 #include "train/stages/contact_sheet.h"
 #include "train/stages/dry_run.h"
 #include "train/stages/evaluation.h"
+#include "train/stages/made_scores.h"
 #include "train/stages/model.h"
 #include "train/stages/predictions.h"
 #include "train/stages/scores.h"
@@ -275,7 +276,8 @@ TEST_CASE("a backbone is trained with its head, the same for any number of threa
   }
 }
 
-TEST_CASE("top images in every orientation give eight times the examples, the same for any number of threads", "[slow]") {
+TEST_CASE("top images in every orientation give eight times the examples, the same for any number of threads",
+          "[slow]") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");
   Config config = small_config(temporary.path() / "data");

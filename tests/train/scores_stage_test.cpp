@@ -9,6 +9,7 @@
 #include "semantics/on_policy_weights.h"
 #include "small_dataset.h"
 #include "small_run.h"
+#include "train/stages/made_scores.h"
 #include "train/stages/model.h"
 #include "train/stages/scores.h"
 

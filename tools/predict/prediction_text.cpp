@@ -36,11 +36,10 @@ nlohmann::ordered_json prediction_json(const Prediction& prediction) {
   const predict::Familiarity& top_view = prediction.familiarity;
   const nlohmann::ordered_json top{
       {"distance", top_view.distance}, {"limit", top_view.limit}, {"trust", top_view.trust}};
-  nlohmann::ordered_json json{{"best", views.front()},
-                              {"best_views", views_json(prediction, prediction.best)},
-                              {"margin_over_top", prediction.margin_over_top},
-                              {"views", views},
-                              {"top_view", top}};
+  nlohmann::ordered_json json{{"best", views.front()}, {"best_views", views_json(prediction, prediction.best)}};
+  if (prediction.margin_over_top) json["margin_over_top"] = *prediction.margin_over_top;
+  json["views"] = views;
+  json["top_view"] = top;
   if (const auto& gain = prediction.gain)
     json["gain"] = {
         {"expected", gain->expected}, {"low", gain->low}, {"high", gain->high}, {"probability", gain->probability}};

@@ -14,7 +14,7 @@ struct Prediction {
   std::vector<view::CameraPose> poses;
   std::vector<float> scores;
   std::vector<std::size_t> best;  // the best views that differ enough
-  float margin_over_top;
+  std::optional<float> margin_over_top;  // none: views were taken, and the scores are those of the next one
   std::optional<predict::Gain> gain;  // none: the model does not know
   predict::Familiarity familiarity;
 };

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "frame/frame_inputs.h"
+#include "frame/next_inputs.h"
 #include "io/models/graph_json.h"
 #include "io/models/model_origin.h"
 #include "io/tensors/tensor_file.h"
@@ -90,6 +91,16 @@ void check_seen(const Model& model) {
         "frame: a deviation or the limit in seen is negative");
 }
 
+void check_next_head(const Model& model) {
+  const Graph& head = model.next_head;
+  if (head.nodes().empty()) return;
+  const Index inputs = frame::next_input_count(frame_spec(model));
+  check(head.inputs().size() == 1 && head.node(head.inputs()[0]).shape == Shape{inputs} &&
+            head.node(head.output()).shape == Shape{1},
+        "the head of the next view does not take the ", inputs,
+        " inputs of a camera pose and a taken view, or gives more than one score");
+}
+
 /// A model in a frame other than `camera`.
 void check_frame_model(const Model& model) {
   check(model.depth == frame::DepthChoice::none || frame::has_axis(model.frame), "frame: the frame ",
@@ -105,6 +116,7 @@ void check_frame_model(const Model& model) {
         "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
   check_seen(model);
   check_gain(model.gain);
+  check_next_head(model);
 }
 
 json frame_to_json(const Model& model) {
@@ -168,9 +180,12 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   file.description()["input_fingerprint"] = model.input_fingerprint;
   if (model.symmetries != 1) file.description()["head"]["orientations"] = model.symmetries;
   if (model.precision != StoredPrecision::f32) file.description()["precision"] = name_of(model.precision);
+  const bool has_next = !model.next_head.nodes().empty();
+  if (has_next) file.description()["next"] = {{"graph", graph_to_json(model.next_head)}};
   write_origin(model, file.description());
   add_parameters(file, "backbone", backbone, model.backbone_parameters, model.precision);
   add_parameters(file, "head", model.head, model.head_parameters, model.precision);
+  if (has_next) add_parameters(file, "next", model.next_head, model.next_parameters, model.precision);
   file.write(path);
 }
 
@@ -223,11 +238,14 @@ Model model_of(const TensorFile& file) {
       model.symmetries = head.value("orientations", 1);
       check_camera_model(model);
     } else {
+      if (file.description().contains("next"))
+        model.next_head = graph_from_json(file.description().at("next").at("graph"), "next");
       check_frame_model(model);
     }
   });
   model.backbone_parameters = file.parameters("backbone", model.backbone_graph);
   model.head_parameters = file.parameters("head", model.head);
+  if (!model.next_head.nodes().empty()) model.next_parameters = file.parameters("next", model.next_head);
   return model;
 }
 

@@ -1,6 +1,7 @@
 #include "io/onnx/model_onnx.h"
 
 #include "base/error.h"
+#include "frame/next_inputs.h"
 #include "io/onnx/layer_nodes.h"
 #include "io/onnx/pose_nodes.h"
 #include "models/preprocessing_layer.h"
@@ -32,6 +33,9 @@ class ModelEmission {
         break;
       case ModelPart::head:
         add_head();
+        break;
+      case ModelPart::next:
+        add_pose_head(model_.next_head, model_.next_parameters, frame::next_input_count(frame_spec(model_)));
         break;
     }
     return std::move(to_);
@@ -75,8 +79,9 @@ class ModelEmission {
   }
 
   /// The scores of the head, (M, 1), or (symmetries, M, 1).
-  std::string head(const std::vector<OnnxValue>& inputs) {
-    const FoldedGraph network = folded(model_.head, model_.head_parameters, model_.head.output());
+  std::string head(const std::vector<OnnxValue>& inputs) { return head(model_.head, model_.head_parameters, inputs); }
+  std::string head(const Graph& graph, const Parameters& parameters, const std::vector<OnnxValue>& inputs) {
+    const FoldedGraph network = folded(graph, parameters, graph.output());
     OnnxLayers to = layers("head/");
     return to.rows_of(to.add(network.graph, network.parameters, inputs));
   }
@@ -131,12 +136,15 @@ class ModelEmission {
     add_scores(features, angles);
   }
 
+  /// A head on the inputs of poses.
+  void add_pose_head(const Graph& graph, const Parameters& parameters, Index inputs) {
+    to_.inputs.push_back({"pose", {"M", inputs}});
+    add_output("Identity", kScores, head(graph, parameters, {{.name = "pose", .shape = {inputs}}}), {"M", Index{1}});
+  }
+
   void add_head() {
-    if (model_.frame != frame::FrameChoice::camera) {
-      const Index inputs = frame::input_count(frame_spec(model_));
-      to_.inputs.push_back({"pose", {"M", inputs}});
-      return add_output("Identity", kScores, head({{.name = "pose", .shape = {inputs}}}), {"M", Index{1}});
-    }
+    if (model_.frame != frame::FrameChoice::camera)
+      return add_pose_head(model_.head, model_.head_parameters, frame::input_count(frame_spec(model_)));
     const bool one = model_.symmetries == 1;
     to_.inputs.push_back(
         {kFeatures, {one ? std::variant<Index, std::string>("F") : Index{1}, model_.symmetries * backbone_size()}});

@@ -20,6 +20,7 @@ struct OnnxOptions {
 ///   head      frame `camera`: features (F, D), poses_deg (M, 2) -> scores (M, 1), F = 1 or M. Of a model with
 ///             symmetries the features of all, (1, D), as svnet_embed gives them.
 ///             other frames: pose (M, I), the inputs of frame/frame_inputs.h -> scores (M, 1)
+///   next      pose (M, I), the inputs of frame/next_inputs.h -> scores (M, 1)
 /// The image has the size that the model takes. poses_deg are theta and phi in degrees. What depends on the image is
 /// computed once for all poses.
 ///

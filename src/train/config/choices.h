@@ -27,6 +27,12 @@ constexpr auto enum_table(HeadChoice) {
                                               {HeadChoice::best, "best"}});
 }
 
+/// Whether the model also learns which view to take next (next_head.h): not, or by ridge regression.
+enum class NextViewChoice { none, ridge };
+constexpr auto enum_table(NextViewChoice) {
+  return std::to_array<EnumName<NextViewChoice>>({{NextViewChoice::none, "none"}, {NextViewChoice::ridge, "ridge"}});
+}
+
 /// How the score becomes what SV-net learns (view_targets.h).
 enum class TargetScale { scaled, centred };
 constexpr auto enum_table(TargetScale) {

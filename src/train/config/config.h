@@ -43,6 +43,7 @@ struct Config {
     frame::FrameChoice frame = frame::FrameChoice::camera;
     frame::DepthChoice depth = frame::DepthChoice::none;
     HeadChoice head = HeadChoice::ridge;
+    NextViewChoice next_view = NextViewChoice::none;
     std::string backbone = "vgg19";
     std::string layer;
     Index width = 4096;

@@ -90,6 +90,10 @@ void check_together(const Config& c, const ConfigReader& reader) {
         s.max_categories, " is less than scores.min_categories ", s.min_categories);
   check(c.sv_net.depth == frame::DepthChoice::none || frame::has_axis(c.sv_net.frame), reader.where("sv_net.depth"),
         ": only the frames axis and turned_axis read depth; set sv_net.frame to one of them");
+  check(c.sv_net.next_view == NextViewChoice::none || c.sv_net.frame != frame::FrameChoice::camera,
+        reader.where("sv_net.next_view"),
+        ": models of the frame camera do not learn which view to take next; set sv_net.frame to another one, such as "
+        "axis");
   check(s.max_objects == 0 || s.max_objects >= s.min_objects, reader.where("scores.max_objects"), ": ", s.max_objects,
         " is less than scores.min_objects ", s.min_objects);
 }

@@ -154,6 +154,10 @@ std::vector<BoundKey> bound_keys(Config& c) {
       later(choice(Stage::model, "sv_net.head", c.sv_net.head,
                    "In other frames than camera: ridge regression, a small network (four of them, averaged), both "
                    "averaged, or the best of these by cross-validation over the training categories.")),
+      later(
+          choice(Stage::model, "sv_net.next_view", c.sv_net.next_view,
+                 "ridge: also learn, from scores of pairs of views, which view to take next, given the views taken and "
+                 "their pictures; in other frames than camera.")),
       text(Stage::features, "sv_net.backbone", c.sv_net.backbone, backbone,
            "Backbone of the features of the top image."),
       text(Stage::features, "sv_net.layer", c.sv_net.layer, layer,

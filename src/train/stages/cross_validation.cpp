@@ -56,7 +56,8 @@ FoldChoices choices_of(const Run& fold, FeaturesStage& features, const Scores& t
           },
       .predicted = choices.predicted,
       .training_scores = training_scores,
-      .frames = [&]() -> const std::vector<frame::TopFrame>& { return features.frames(fold.config.sv_net.depth); }};
+      .frames = [&]() -> const std::vector<frame::TopFrame>& { return features.frames(fold.config.sv_net.depth); },
+      .next = next_scores(fold, features, model)};
   choices.selectors = chosen_by(kinds, inputs, fold.config.evaluation.views);
   return choices;
 }

@@ -65,7 +65,7 @@ void dry_run(const Config& config, const ViewDataset& dataset, const Messages& m
   const Model model = model_stage(run, features, scores);
   const std::vector<double> predicted = predicted_scores(run, features, model);
   constexpr std::uint64_t kProblems = 10;
-  const EvaluationInputs inputs{features, scores, predicted};
+  const EvaluationInputs inputs{features, scores, predicted, nullptr, next_scores(run, features, model)};
   evaluation_stage(run, inputs, kProblems);
   contact_sheet_stage(run, inputs, kProblems);
 }

@@ -40,7 +40,8 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
                                        },
                                    .predicted = inputs.predicted,
                                    .training_scores = inputs.scores,
-                                   .frames = frames};
+                                   .frames = frames,
+                                   .next = inputs.next};
   tables["training"] =
       table(run.held_out, selectors(run, Split::training, in_training), "evaluation, training categories");
   if (run.has_held_out_problems()) {
@@ -55,7 +56,8 @@ EvaluationTables evaluation_stage(const Run& run, const EvaluationInputs& inputs
                                          },
                                      .predicted = inputs.predicted,
                                      .training_scores = inputs.scores,
-                                     .frames = frames};
+                                     .frames = frames,
+                                     .next = inputs.next};
     tables["held_out"] = table(run.training_categories(), selectors(run, Split::held_out, in_held_out),
                                "evaluation, held-out categories");
   } else {

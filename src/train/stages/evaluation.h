@@ -18,6 +18,7 @@ struct EvaluationInputs {
   std::span<const double> predicted;  ///< SV-net's score of every view
   /// Of the held-out categories (held_out_scores.h), if they are at hand; otherwise they are made when they are needed.
   const semantics::SemanticScores* held_out = nullptr;
+  NextScores next{};  ///< predictions.h
 };
 
 /// The last stage: how well views that selectors choose are clustered. Returns the tables of training categories and,

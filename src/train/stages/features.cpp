@@ -1,5 +1,7 @@
 #include "train/stages/features.h"
 
+#include <algorithm>
+
 #include "base/parallel.h"
 #include "base/text.h"
 #include "io/files/snapshot_path.h"
@@ -7,6 +9,7 @@
 #include "train/top_frames.h"
 #include "train/turned_features.h"
 #include "train/turned_projection.h"
+#include "train/view_shapes.h"
 
 namespace svnet::train {
 namespace {
@@ -82,6 +85,18 @@ const PrincipalComponents& FeaturesStage::turned_components(const std::string& n
   components_ = {name, layer, categories,
                  train::turned_components(run_.dataset, turned, categories, run_.seed(), Parallel::shared())};
   return components_->components;
+}
+
+std::vector<frame::ViewShape> FeaturesStage::view_shapes() {
+  const FeaturesOrigin origin = view_shapes_origin(run_.dataset_fingerprint);
+  const Features& stored_shapes = stored(run_.folder / "view-shapes.h5", origin, "shapes of views", [&] {
+    return extract_view_shapes(run_.dataset, origin, run_.messages, Parallel::shared());
+  });
+  std::vector<frame::ViewShape> shapes(static_cast<std::size_t>(stored_shapes.count));
+  for (std::size_t v = 0; v < shapes.size(); ++v)
+    std::copy_n(stored_shapes.values.begin() + static_cast<std::ptrdiff_t>(v * frame::kViewShapeSize),
+                frame::kViewShapeSize, shapes[v].begin());
+  return shapes;
 }
 
 const std::vector<frame::TopFrame>& FeaturesStage::frames(frame::DepthChoice depth) {

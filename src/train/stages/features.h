@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "frame/next_inputs.h"
 #include "frame/top_frame.h"
 #include "io/views/features_file.h"
 #include "train/feature_extraction.h"
@@ -43,6 +44,8 @@ class FeaturesStage {
                                                const std::vector<bool>& categories);
   /// What is measured on every pose's top view (train/top_frames.h), of the images alone or with their depth.
   const std::vector<frame::TopFrame>& frames(frame::DepthChoice depth);
+  /// What the picture of every view shows of the object's shape (frame/next_inputs.h), in view-shapes.h5.
+  std::vector<frame::ViewShape> view_shapes();
 
  private:
   struct Components {

@@ -14,7 +14,8 @@ struct CheckedGain {
   double gained;
 };
 
-/// Adds the poses of `categories` whose views have scores, unless the top view is the best predicted one; none if the calibration is not known.
+/// Adds the poses of `categories` whose views have scores, unless the top view is the best predicted one; none if the
+/// calibration is not known.
 void add_gains(const ViewDataset& dataset, std::span<const double> predicted, std::span<const double> scores,
                const std::vector<bool>& categories, const GainCalibration& calibration,
                std::vector<CheckedGain>& gains);

@@ -12,7 +12,9 @@
 #include "train/config/fingerprint.h"
 #include "train/epoch_order.h"
 #include "train/frame_head.h"
+#include "train/next_head.h"
 #include "train/stages/options.h"
+#include "train/stages/pair_scores.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/stages/top_features.h"
 #include "train/stages/trained_network.h"
@@ -148,6 +150,18 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
                        model.head_parameters);
 }
 
+/// Which view to take next, from the scores of pairs of views.
+void learn_next_view(Model& model, const Run& run, FeaturesStage& features) {
+  const PairScores pairs = pair_scores_stage(run, features);
+  const std::vector<frame::ViewShape> shapes = features.view_shapes();
+  const RidgeFit fit = fit_next_head({run.dataset, frame_spec(model), top_features(run, features, model), shapes},
+                                     pairs.pairs, pairs.scores, run.seed());
+  run.say(joined("next view: ridge regression of ", fit.weights.size(), " inputs on ", pairs.pairs.count(),
+                 " pairs, penalty ", fit.penalty, ", explains ", 100 * (1 - fit.error),
+                 " % of the variance beside a taken view, of categories left out"));
+  set_next_head(model, fit);
+}
+
 /// A model in a frame other than `camera`.
 Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& scores, const std::string& fingerprint) {
   const Config& config = run.config;
@@ -178,6 +192,7 @@ Model make_frame_model(const Run& run, FeaturesStage& features, const Scores& sc
     run.say(joined("SV-net: ", head.networks.size(), " networks",
                    head.ridge_share > 0 ? ", averaged with the ridge regression" : ""));
   set_frame_head(model, fitted);
+  if (sv_net.next_view != NextViewChoice::none) learn_next_view(model, run, features);
   model.input_fingerprint = fingerprint;
   return model;
 }

@@ -17,6 +17,7 @@
 #include "train/random_problems.h"
 #include "train/stages/model.h"
 #include "train/stages/options.h"
+#include "train/stages/pair_scores.h"
 #include "train/stages/trained_network.h"
 #include "train/stages/wanted_scores.h"
 #include "train/training_step.h"
@@ -123,6 +124,22 @@ PlannedStage scores_of(const Run& run, FeaturesStage& features, bool model_is_ma
   return planned;
 }
 
+PlannedStage pair_scores_of(const Run& run, bool model_is_made) {
+  constexpr double kLonger = 1.7;  // a problem of pairs than one of views (docs/benchmarks.md)
+  const Config config = config_of_pairs(run.config);
+  const semantics::ViewSets pairs = pairs_of_views(run.dataset, run.training_categories(), run.seed());
+  const std::uint64_t count =
+      semantics::expected_problems(clustering_problems(run.dataset, pairs, config.scores), score_options(config, 0));
+  const std::size_t passes = scored_backbones(config.scores).size();
+  PlannedStage planned{.stage = "scores of pairs", .work = joined(pairs.count(), " pairs"), .is_made = model_is_made};
+  if (count > 0) planned.work += joined(", ", count, " problems");
+  if (passes > 1) planned.work += joined(", ", passes, " times");
+  if (!model_is_made && count > 0)
+    planned.seconds = kLonger * static_cast<double>(count * passes) *
+                      seconds_of_problem(run, clustering_problems(run.dataset, run.held_out, config.scores));
+  return planned;
+}
+
 Index training_examples(const Run& run) {
   const std::vector<bool> learnt = category_use(run.held_out, run.config).learnt;
   const auto learns = [&](const View& view) { return learnt[static_cast<std::size_t>(view.category)]; };
@@ -181,10 +198,11 @@ std::vector<PlannedStage> planned_stages(const Run& run, FeaturesStage& features
     wanted.emplace(config.sv_net.backbone, config.sv_net.layer);
   const bool model_is_made = model_is_current(run, features);
   std::vector<PlannedStage> stages;
-  stages.reserve(wanted.size() + 3);
+  stages.reserve(wanted.size() + 4);
   for (const auto& [backbone, layer] : wanted) stages.push_back(features_of(run, features, backbone, layer));
   if (frame::has_turns(config.sv_net.frame)) stages.push_back(turned_features_of(run, features));
   stages.push_back(scores_of(run, features, model_is_made));
+  if (config.sv_net.next_view != NextViewChoice::none) stages.push_back(pair_scores_of(run, model_is_made));
   stages.push_back(model_of(run, features, model_is_made));
   return stages;
 }

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/error.h"
+#include "predict/next_head.h"
 #include "predict/score_head.h"
 #include "train/stages/top_features.h"
 #include "train/view_inputs.h"
@@ -70,7 +71,47 @@ std::vector<double> camera_scores(const Run& run, FeaturesStage& features_stage,
   return predicted;
 }
 
+/// What scores of the next view are made of.
+struct NextScoring {
+  const Run& run;
+  predict::ScoreHead head;
+  predict::NextHead next;
+  std::vector<float> features;  // (poses, D)
+  std::vector<frame::ViewShape> shapes;
+
+  std::vector<double> scores(std::span<const std::int32_t> taken, Index per_pose) const {
+    const ViewDataset& dataset = run.dataset;
+    const auto dimension = static_cast<std::size_t>(head.feature_count());
+    predict::ScoreWorkspace workspace{.owns_arenas = false};
+    std::vector<double> all;
+    for (std::size_t pose = 0; pose < dataset.poses.size(); ++pose) {
+      const std::span<const float> of_pose = std::span(features).subspan(pose * dimension, dimension);
+      std::vector<frame::TakenView> views;
+      for (const std::int32_t view :
+           taken.subspan(pose * static_cast<std::size_t>(per_pose), static_cast<std::size_t>(per_pose))) {
+        const View& of_view = dataset.views[static_cast<std::size_t>(view)];
+        views.push_back({{static_cast<double>(of_view.theta_deg), static_cast<double>(of_view.phi_deg)},
+                         shapes[static_cast<std::size_t>(view)]});
+      }
+      const std::vector<view::CameraPose> poses = candidates(dataset, static_cast<Index>(pose));
+      std::vector<float> of_candidates(poses.size());
+      next.scores(of_pose, head.familiarity(of_pose, workspace).trust, views, poses, of_candidates, workspace);
+      all.insert(all.end(), of_candidates.begin(), of_candidates.end());
+    }
+    return all;
+  }
+};
+
 }  // namespace
+
+NextScores next_scores(const Run& run, FeaturesStage& features, const Model& model) {
+  if (model.next_head.nodes().empty()) return {};
+  // Networks cannot be moved: make_shared could not construct it.
+  const std::shared_ptr<const NextScoring> scoring(
+      new NextScoring{run, predict::ScoreHead(model, run.inference), predict::NextHead(model, run.inference),
+                      top_features(run, features, model), features.view_shapes()});
+  return [scoring](std::span<const std::int32_t> taken, Index per_pose) { return scoring->scores(taken, per_pose); };
+}
 
 std::vector<double> predicted_scores(const Run& run, FeaturesStage& features, const Model& model) {
   return model.frame == frame::FrameChoice::camera ? camera_scores(run, features, model)

@@ -10,7 +10,7 @@
 #include "semantics/clustering_problems.h"
 #include "train/config/config.h"
 #include "train/stages/features.h"
-#include "train/stages/resume.h"
+#include "train/stages/resumed_sums.h"
 #include "train/stages/round_predictor.h"
 
 namespace svnet::train {
@@ -28,13 +28,6 @@ Scores scores_stage(const Run& run, FeaturesStage& features);
 /// Without rounds: views are drawn uniformly, so that the scores do not depend on a model.
 Scores uniform_scores_stage(const Run& run, FeaturesStage& features);
 
-/// Options that do not change the scores.
-struct ScoringOptions {
-  Resume resume = Resume::never;                         ///< from the snapshot
-  double snapshot_seconds = 10;                          ///< from one snapshot to the next
-  Communicator& communicator = SingleProcess::shared();  ///< shares the work; the root process reads and writes files
-};
-
 /// Computes the scores of every view with `config.scores` and `config.seed`, but for rounds: views are drawn by
 /// `weights`, uniformly if it is empty. Views of excluded categories have none. Writes a snapshot to
 /// snapshot_path(path) from time to time, and if messages.progress throws. Requires: the rows of the features are the
@@ -42,8 +35,5 @@ struct ScoringOptions {
 Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset, const Features& features,
                    const std::vector<bool>& excluded, const Config& config, const Messages& messages,
                    const ScoringOptions& options, const semantics::ViewWeights& weights = {});
-
-/// Writes the scores to `path` and removes the snapshot that make_scores left beside it.
-void write_made_scores(const std::filesystem::path& path, const Scores& scores);
 
 }  // namespace svnet::train
