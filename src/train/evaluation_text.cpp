@@ -1,6 +1,7 @@
 #include "train/evaluation_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -46,10 +47,14 @@ Index views_of_svnet(const std::string& selector) {
 }
 
 /// Several views are compared with one view of SV-net, with as many random ones, and with the top view; one view with
-/// all others.
+/// all others. Those that the head of the next view chooses are compared with those of SV-net's rule.
 bool is_compared(const std::string& selector, const std::string& baseline) {
+  for (const auto& [next, rule] : {std::pair{"next", "svnet"}, {"top_next", "top_svnet"}})
+    for (Index views = 2; views <= kMostViews; ++views)
+      if (selector == name_with_views(next, views) && baseline == name_with_views(rule, views)) return true;
   const Index views = views_of_svnet(selector);
-  if (views <= 1) return views == 1 && !baseline.starts_with("rand_") && baseline != "svnet";
+  const bool of_several = std::isdigit(static_cast<unsigned char>(baseline.back())) != 0;
+  if (views <= 1) return views == 1 && !of_several && baseline != "svnet";
   return baseline == "svnet" || baseline == "top" || baseline == name_with_views("rand", views);
 }
 
@@ -68,7 +73,7 @@ std::string differences_text(const EvaluationTable& table) {
   for_each_difference(table, [&](const std::string& selector, const std::string& baseline, std::size_t row,
                                  const PerMetric<Difference>& differences) {
     if (text.empty()) text = "SV-net minus another selector, with 95 % intervals over categories:\n";
-    text += "  " + padded((selector == "svnet" ? "- " : selector + " - ") + baseline, 18) +
+    text += "  " + padded((selector == "svnet" ? "- " : selector + " - ") + baseline, 26) +
             padded(row_name(table, row), 22);
     for (std::size_t m = 0; m < kMetrics.size(); ++m)
       text += padded(std::string(kMetrics[m].title) + " " + signed_number(differences[m].mean) +
@@ -116,7 +121,8 @@ std::string columns_text(const EvaluationTables& tables) {
   };
   bool several = false;
   for (const SelectorKind& kind : selector_kinds()) {
-    if (has(kind.name)) text += "  " + padded(kind.name, 12) + kind.help + "\n";
+    if (has(kind.name) || (kind.fewest > 1 && has(name_with_views(kind.name, kind.fewest))))
+      text += "  " + padded(kind.name, 12) + kind.help + "\n";
     several = several || has(name_with_views(kind.name, 2));
   }
   if (several) text += "  " + padded("…_2, …_3", 14) + "the two, three best or random views of each object, fused\n";

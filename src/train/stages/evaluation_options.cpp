@@ -9,7 +9,8 @@ EvaluationOptions evaluation_options(const Config& config, std::uint64_t problem
                             .fusion = config.evaluation.fusion};
   if (config.evaluation.views > 1) options.baselines.emplace_back("svnet");
   for (Index views = 2; views <= config.evaluation.views; ++views)
-    options.baselines.push_back(name_with_views("rand", views));
+    for (const char* selector : {"rand", "svnet", "top_svnet"})
+      options.baselines.push_back(name_with_views(selector, views));
   return options;
 }
 
