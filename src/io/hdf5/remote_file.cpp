@@ -18,7 +18,7 @@ namespace {
 /// The file itself is mapped. Besides it the child needs a whole dataset that is stored in chunks, as the library and
 /// as the caller sees it, and the library's own memory.
 sandbox::Limits limits_for(std::uint64_t size) {
-  constexpr std::uint64_t kLibrary = std::uint64_t{48} << 20, kFast = std::uint64_t{16} << 20, kSlow = 1u << 20;
+  constexpr std::uint64_t kLibrary = std::uint64_t{24} << 20, kFast = std::uint64_t{16} << 20, kSlow = 1u << 20;
   sandbox::Limits limits;
   limits.memory_bytes = size + kLibrary + 2 * largest_decoded(size);
   limits.processor_time = std::chrono::seconds(5 + size / kFast);
