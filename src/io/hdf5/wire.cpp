@@ -102,7 +102,7 @@ std::string ask(sandbox::Child& child, const Request& request, Sink& to) {
         break;
       case kShape: {
         std::vector<std::uint64_t> shape(message.bytes.size() / sizeof(std::uint64_t));
-        std::memcpy(shape.data(), message.bytes.data(), shape.size() * sizeof(std::uint64_t));
+        if (!shape.empty()) std::memcpy(shape.data(), message.bytes.data(), shape.size() * sizeof(std::uint64_t));
         to.shape(shape);
         break;
       }

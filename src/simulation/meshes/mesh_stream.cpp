@@ -15,9 +15,9 @@ using sandbox::Message;
 // Both ends are the same program, so values travel as they lie in memory: numbers, arrays of them and Eigen's vectors
 // of fixed size.
 
-class Writer {
+class MeshWriter {
  public:
-  explicit Writer(Channel& channel) : channel_(channel), room_(channel.room()) {}
+  explicit MeshWriter(Channel& channel) : channel_(channel), room_(channel.room()) {}
 
   void bytes(const void* from, std::size_t size) {
     const auto* next = static_cast<const std::byte*>(from);
@@ -48,9 +48,9 @@ class Writer {
   std::size_t used_ = 0;
 };
 
-class Reader {
+class MeshReceiver {
  public:
-  Reader(Child& child, std::span<const std::byte> first) : child_(child), left_(first) {}
+  MeshReceiver(Child& child, std::span<const std::byte> first) : child_(child), left_(first) {}
 
   bool is_good() const { return good_; }
   bool is_at_end() const { return left_.empty(); }
@@ -104,7 +104,7 @@ void pass_material(Stream& stream, AnyMaterial& m) {
 }  // namespace
 
 void send_mesh(Channel& channel, const Mesh& mesh) {
-  Writer write(channel);
+  MeshWriter write(channel);
   write(mesh.points), write(mesh.triangles), write(mesh.normals), write(mesh.uv), write(mesh.metal_uv);
   write(mesh.tints);
   write(std::uint64_t{mesh.materials.size()});
@@ -116,7 +116,7 @@ void send_mesh(Channel& channel, const Mesh& mesh) {
 
 std::optional<Mesh> receive_mesh(Child& child, const Message& first) {
   Mesh mesh;
-  Reader read(child, first.bytes);
+  MeshReceiver read(child, first.bytes);
   read(mesh.points, 3 * kMostTriangles), read(mesh.triangles, kMostTriangles), read(mesh.normals, kMostTriangles);
   read(mesh.uv, kMostTriangles), read(mesh.metal_uv, kMostTriangles), read(mesh.tints, kMostTriangles);
   std::uint64_t materials = 0, images = 0;
