@@ -55,7 +55,7 @@ std::array<Descriptor, 2> Channel::socket_pair() {
 void Channel::send(std::uint32_t kind, std::span<const std::byte> bytes, int descriptor) {
   check(bytes.size() <= kMostMessageBytes, "a message between two processes has ", bytes.size(), " bytes");
   const Header header{kind, 0, bytes.size()};
-  send_whole(std::as_bytes(std::span(&header, 1)), descriptor);
+  send_whole(bytes_of(header), descriptor);
   send_whole(bytes, -1);
 }
 
@@ -73,7 +73,7 @@ void Channel::send_room(std::uint32_t kind, std::size_t size) {
   const Header header{kind, 1, size};
   --free_rooms_;
   ++sent_rooms_;
-  send_whole(std::as_bytes(std::span(&header, 1)), -1);
+  send_whole(bytes_of(header), -1);
 }
 
 Message Channel::receive() {

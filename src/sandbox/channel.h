@@ -7,6 +7,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "base/error.h"
@@ -31,6 +33,17 @@ struct Message {
   std::span<const std::byte> bytes{};
   Descriptor descriptor{};  // of a file, if one came with it
 };
+
+/// Texts and the values of plain types as bytes, and back.
+inline std::span<const std::byte> bytes_of(std::string_view text) { return std::as_bytes(std::span(text)); }
+inline std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+template <class T>
+requires(std::is_arithmetic_v<T> || std::is_aggregate_v<T>) std::span<const std::byte> bytes_of(const T& value) {
+  static_assert(std::is_trivially_copyable_v<T>);
+  return std::as_bytes(std::span(&value, 1));
+}
 
 /// Memory that both ends share, in two rooms: while the parent copies one, the child fills the other.
 class Bulk {

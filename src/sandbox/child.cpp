@@ -22,12 +22,10 @@ enum OwnKind : std::uint32_t { kReady = Channel::kFirstOwnKind + 1, kNoSandbox, 
 
 void send_text(Channel& channel, std::uint32_t kind, std::string_view text) {
   constexpr std::size_t kMostText = 4000;
-  channel.send(kind, std::as_bytes(std::span(text.substr(0, kMostText))));
+  channel.send(kind, bytes_of(text.substr(0, kMostText)));
 }
 
-std::string text_of(const Message& message) {
-  return printable(std::string_view(reinterpret_cast<const char*>(message.bytes.data()), message.bytes.size()));
-}
+std::string line_of(const Message& message) { return printable(text_of(message.bytes)); }
 
 /// The life of the child. Nothing of the parent's is cleaned up in it: its destructors and exit handlers never run.
 [[noreturn]] void live(Channel& channel, std::vector<int> kept, const Limits& limits,
@@ -96,7 +94,7 @@ Child::Child(Task task, std::span<const int> descriptors, const Limits& limits,
   if (!process_.exists()) refuse("fork: " + std::generic_category().message(errno));
   try {
     const Message first = channel_->receive();
-    if (first.kind == kNoSandbox) refuse(text_of(first));
+    if (first.kind == kNoSandbox) refuse(line_of(first));
     if (first.kind != kReady) refuse_answer();
   } catch (const ChannelClosed& closed) {
     fail_closed(closed);
@@ -115,7 +113,7 @@ void Child::send(std::uint32_t kind, std::span<const std::byte> bytes, int descr
 Message Child::receive() {
   try {
     Message message = channel_->receive();
-    if (message.kind == kFailed) fail_as_child(text_of(message));
+    if (message.kind == kFailed) fail_as_child(line_of(message));
     if (message.kind == kNoMemory) fail_memory();
     if (message.kind >= Channel::kFirstOwnKind) refuse_answer();
     return message;

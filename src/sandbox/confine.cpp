@@ -52,8 +52,10 @@ void close_all_but(std::span<const int> kept) {
 
 /// Ctrl-C reaches all processes of a terminal: what it means is the parent's matter.
 void forget_signals() {
-  for (int number = 1; number < 32; ++number)
-    if (!kSanitized || number == SIGTERM) std::signal(number, SIG_DFL);
+  for (int number = 1; number < 32; ++number) {
+    const bool is_crash = number == SIGSEGV || number == SIGBUS || number == SIGFPE || number == SIGILL;
+    if (!kSanitized || !is_crash) std::signal(number, SIG_DFL);
+  }
   for (const int number : {SIGINT, SIGHUP, SIGQUIT, SIGPIPE}) std::signal(number, SIG_IGN);
   sigset_t none;
   sigemptyset(&none);

@@ -3,13 +3,19 @@
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <csignal>
+#include <cstddef>
 #include <cstdlib>
 #include <cstring>
 
 #include <fcntl.h>
+#include <linux/filter.h>
+#include <linux/seccomp.h>
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include "base/error.h"
@@ -182,6 +188,36 @@ TEST_CASE("an answer that breaks the protocol is refused") {
     channel.receive();
   };
   CHECK_THAT(failure_of(lie), Contains("a.file: the test gave an answer that makes no sense"));
+}
+
+TEST_CASE("where the system has no such processes, the error says what to do") {
+  // A process that may not install filters, as in some containers.
+  int ends[2];
+  REQUIRE(::pipe(ends) == 0);
+  const pid_t process = ::fork();
+  if (process == 0) {
+    sock_filter refuse_seccomp[] = {BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
+                                    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_prctl, 0, 3),
+                                    BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, args)),
+                                    BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, PR_SET_SECCOMP, 0, 1),
+                                    BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ERRNO | EINVAL),
+                                    BPF_STMT(BPF_RET | BPF_K, SECCOMP_RET_ALLOW)};
+    const sock_fprog program{std::size(refuse_seccomp), refuse_seccomp};
+    ::prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
+    ::prctl(PR_SET_SECCOMP, SECCOMP_MODE_FILTER, &program, 0, 0);
+    const std::string text = failure_of([](Channel&) {});
+    if (::write(ends[1], text.data(), text.size()) < 0) ::_exit(1);
+    ::_exit(0);
+  }
+  ::close(ends[1]);
+  char text[1000] = "";
+  CHECK(::read(ends[0], text, sizeof text - 1) > 0);
+  ::close(ends[0]);
+  ::waitpid(process, nullptr, 0);
+  CHECK(text ==
+        std::string("a.file: the test reads it in a process that can do nothing else, and there can be no such "
+                    "process here (seccomp: Invalid argument); --sandbox off reads files that you trust without "
+                    "it"));
 }
 
 TEST_CASE("the sandbox is on, until it is switched off") {

@@ -11,16 +11,8 @@ namespace {
 
 enum MessageKind : std::uint32_t { kRequest, kTruth, kShape, kTextPart, kTextEnd, kTexts, kValues, kEnd, kError };
 
-template <class T>
-std::span<const std::byte> bytes_of(const T& value) {
-  return std::as_bytes(std::span(&value, 1));
-}
-std::span<const std::byte> bytes_of(const std::string& text) {
-  return std::as_bytes(std::span(text.data(), text.size()));
-}
-std::string text_of(std::span<const std::byte> bytes) {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
+using sandbox::bytes_of;
+using sandbox::text_of;
 
 struct RequestHead {
   Ask ask;

@@ -20,20 +20,18 @@ namespace svnet::simulation {
 namespace {
 
 namespace fs = std::filesystem;
+using sandbox::bytes_of;
 using sandbox::Child;
 using sandbox::Descriptor;
 using sandbox::Message;
+using sandbox::text_of;
 
 /// The child sends find (two texts), warn (a text), length (a number) and at last the mesh; the parent answers to find
 /// with missing, found (a path, and the open file) or unreadable (a path, a reason), to length with unit.
 enum MessageKind : std::uint32_t { kFind, kMissing, kFound, kUnreadable, kWarn, kLength, kUnit };
 
-std::span<const std::byte> bytes_of(const std::string& text) { return std::as_bytes(std::span(text)); }
-std::string text_of(const Message& message) {
-  return {reinterpret_cast<const char*>(message.bytes.data()), message.bytes.size()};
-}
 std::pair<std::string, std::string> two_texts_of(const Message& message) {
-  const std::string both = text_of(message);
+  const std::string both = text_of(message.bytes);
   const std::size_t end = std::min(both.find('\0'), both.size());
   return {both.substr(0, end), both.substr(std::min(end + 1, both.size()))};
 }
@@ -115,7 +113,7 @@ void serve(sandbox::Channel& channel, const std::string& name, int descriptor) {
   const Mapped file(descriptor, name);
   const AskedFiles files(name, channel);
   const Mesh mesh = decode_mesh(file.contents(), files, [&](double length) {
-    channel.send(kLength, std::as_bytes(std::span(&length, 1)));
+    channel.send(kLength, bytes_of(length));
     return number_of(channel.receive());
   });
   check(is_consistent(mesh), name, ": holds a colour, a normal or a place in a texture that is not finite");
@@ -161,11 +159,11 @@ Mesh read_mesh_elsewhere(const fs::path& path, const MeshFiles& files,
         answer_find(child, files, message);
         break;
       case kWarn:
-        files.warn(printable(text_of(message)));
+        files.warn(printable(text_of(message.bytes)));
         break;
       case kLength: {
         const double unit = metres_per_unit(number_of(message));
-        child.send(kUnit, std::as_bytes(std::span(&unit, 1)));
+        child.send(kUnit, bytes_of(unit));
         break;
       }
       case kMeshBytes: {
