@@ -52,7 +52,8 @@ std::string line_of(const Message& message) { return printable(text_of(message.b
 std::string status_text(int status, const Limits& limits) {
   if (WIFSIGNALED(status)) {
     const int number = WTERMSIG(status);
-    if (number == SIGXCPU || number == SIGKILL)
+    if (number == SIGKILL) return "was killed; is there enough memory?";
+    if (number == SIGXCPU)
       return joined("took more than ", limits.processor_time.count(), " s of processor time, and was stopped");
     if (number == SIGSYS) return "tried to start a program or to open a connection, and was stopped";
     return joined("crashed (", ::strsignal(number), ")");

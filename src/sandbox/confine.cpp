@@ -62,10 +62,12 @@ void forget_signals() {
   ::sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-bool set_limit(int resource, std::uint64_t value) {
+/// `grace`: how much more there is after the first signal, for limits that send one.
+bool set_limit(int resource, std::uint64_t value, std::uint64_t grace = 0) {
   rlimit limit{};
   if (::getrlimit(static_cast<__rlimit_resource>(resource), &limit) != 0) return false;
-  limit.rlim_cur = limit.rlim_max = std::min<rlim_t>(limit.rlim_max, value);
+  limit.rlim_max = std::min<rlim_t>(limit.rlim_max, value + grace);
+  limit.rlim_cur = std::min<rlim_t>(limit.rlim_max, value);
   return ::setrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
 }
 
@@ -85,7 +87,7 @@ std::string confine_this_process(std::span<const int> kept, const Limits& limits
   close_all_but(kept);
   errno = 0;
   const auto seconds = static_cast<std::uint64_t>(limits.processor_time.count());
-  if (!set_limit(RLIMIT_CORE, 0) || !set_limit(RLIMIT_FSIZE, 0) || !set_limit(RLIMIT_CPU, seconds))
+  if (!set_limit(RLIMIT_CORE, 0) || !set_limit(RLIMIT_FSIZE, 0) || !set_limit(RLIMIT_CPU, seconds, 1))
     return refusal("limits of resources");
   if (!kSanitized && !set_limit(RLIMIT_AS, used + limits.memory_bytes)) return refusal("a limit of memory");
   if (::prctl(PR_SET_DUMPABLE, 0, 0, 0, 0) != 0) return refusal("PR_SET_DUMPABLE");
