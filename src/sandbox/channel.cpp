@@ -45,6 +45,8 @@ Bulk::Bulk() : memory_(nullptr) {
 }
 Bulk::~Bulk() { ::munmap(memory_, 2 * kRoomBytes); }
 
+void Bulk::keep_from_later_processes() { ::madvise(memory_, 2 * kRoomBytes, MADV_DONTFORK); }
+
 std::array<Descriptor, 2> Channel::socket_pair() {
   int ends[2];
   check(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) == 0,

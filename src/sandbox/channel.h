@@ -56,6 +56,9 @@ class Bulk {
   Bulk(const Bulk&) = delete;
   Bulk& operator=(const Bulk&) = delete;
 
+  /// Processes that are forked later do not have this memory.
+  void keep_from_later_processes();
+
   std::span<std::byte> room(std::uint64_t number) { return {memory_ + number % 2 * kRoomBytes, kRoomBytes}; }
 
  private:

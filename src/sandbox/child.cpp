@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstring>
+#include <mutex>
 #include <new>
 #include <system_error>
 #include <utility>
@@ -86,12 +87,17 @@ Child::Child(Task task, std::span<const int> descriptors, const Limits& limits,
          "process here (", why, "); --sandbox off reads files that you trust without it");
   };
   auto [here, there] = Channel::socket_pair();
-  channel_ = std::make_unique<Channel>(std::move(here), bulk_, limits.answer_time);
   {
-    Channel channel(std::move(there), bulk_, std::nullopt);
+    // One at a time, so that no child shares the memory of another one's channel.
+    static std::mutex only_one;
+    const std::lock_guard lock(only_one);
+    bulk_ = std::make_unique<Bulk>();
+    Channel channel(std::move(there), *bulk_, std::nullopt);
     process_ = Process(::fork());
     if (process_.is_this()) live(channel, {descriptors.begin(), descriptors.end()}, limits, body);
+    bulk_->keep_from_later_processes();
   }
+  channel_ = std::make_unique<Channel>(std::move(here), *bulk_, limits.answer_time);
   if (!process_.exists()) refuse("fork: " + std::generic_category().message(errno));
   try {
     const Message first = channel_->receive();

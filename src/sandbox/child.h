@@ -70,7 +70,7 @@ class Child {
 
   Task task_;
   Limits limits_;
-  Bulk bulk_;
+  std::unique_ptr<Bulk> bulk_;
   std::unique_ptr<Channel> channel_;
   Process process_;
 };

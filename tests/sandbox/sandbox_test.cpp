@@ -1,11 +1,13 @@
 // What a child process can do, and what becomes of one that tries more.
 #include <algorithm>
+#include <atomic>
 #include <catch2/catch.hpp>
 #include <cerrno>
 #include <csignal>
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
+#include <thread>
 
 #include <fcntl.h>
 #include <linux/filter.h>
@@ -166,6 +168,40 @@ TEST_CASE("messages and bulk arrive intact") {
   const Message answer = child.receive();
   CHECK(answer.kind == 8);
   CHECK(std::memcmp(answer.bytes.data(), "again", 5) == 0);
+}
+
+TEST_CASE("a child has no part in what others share with this process") {
+  if (kSanitized) return;
+  Child first({"a.file", "the test"}, {}, {}, [](Channel& channel) {
+    channel.room()[0] = std::byte{7};
+    channel.send_room(kResult, 1);
+    channel.receive();
+  });
+  const Message message = first.receive();
+  auto* shared = const_cast<std::byte*>(message.bytes.data());
+  REQUIRE(*shared == std::byte{7});
+  CHECK_THAT(failure_of([&](Channel&) { *shared = std::byte{8}; }), Contains("crashed"));
+  CHECK(*shared == std::byte{7});
+}
+
+TEST_CASE("children of several threads") {
+  std::vector<std::thread> threads;
+  std::atomic<int> right{0};
+  for (int t = 0; t < 4; ++t)
+    threads.emplace_back([&, t] {
+      for (int i = 0; i < 20; ++i) {
+        const int sent = 100 * t + i;
+        Child child({"a.file", "the test"}, {}, {}, [&](Channel& channel) {
+          const std::vector<int> copies(10'000, sent);  // memory is allocated while other threads do too
+          send_number(channel, copies.back());
+        });
+        int number = -1;
+        std::memcpy(&number, child.receive().bytes.data(), sizeof number);
+        right += number == sent ? 1 : 0;
+      }
+    });
+  for (std::thread& thread : threads) thread.join();
+  CHECK(right == 80);
 }
 
 TEST_CASE("descriptors are passed on") {

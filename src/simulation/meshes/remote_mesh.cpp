@@ -126,7 +126,7 @@ sandbox::Limits limits_for(std::uint64_t size) {
                           kSlow = 1u << 20;
   sandbox::Limits limits;
   limits.memory_bytes = kAlways + std::min(kTimes * std::min(size, kMost), kMost);
-  limits.processor_time = std::chrono::seconds(30 + size / kSlow);
+  limits.processor_time = std::chrono::seconds(20 + size / kSlow);
   limits.answer_time = std::chrono::seconds(120 + size / kSlow);
   return limits;
 }
