@@ -83,6 +83,8 @@ class CheckedTexts {
   CheckedTexts& operator=(const CheckedTexts&) = delete;
 
   void add(std::string text) {
+    if (text.size() > kLargestText)
+      file_.fail_at(where_, "string ", count_, " has ", text.size(), " bytes, more than the limit of ", kLargestText);
     if (!is_plain_utf8(text)) file_.fail_at(where_, "string ", count_, " is not UTF-8");
     ++count_;
     bytes_ += text.size();

@@ -7,6 +7,9 @@ namespace svnet::io::hdf5 {
 /// The largest memory that a dataset or attribute may need.
 inline constexpr std::uint64_t kLargestBytes = std::uint64_t{1} << 36;
 
+/// The longest string.
+inline constexpr std::uint64_t kLargestText = std::uint64_t{1} << 26;
+
 /// Deflate compresses at most 1032 to 1 (zlib's technical details).
 inline constexpr std::uint64_t kLargestCompression = 1040;
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/text.h"
+#include "io/hdf5/limits.h"
 
 namespace svnet::io::hdf5 {
 namespace {
@@ -19,9 +20,6 @@ struct RequestHead {
   As as;
   std::uint64_t object_bytes;
 };
-
-/// Of a single string.
-constexpr std::size_t kLargestText = std::size_t{1} << 30;
 
 /// Strings that are shorter than this travel together.
 constexpr std::size_t kShort = 4096;
