@@ -10,6 +10,7 @@
 #include "base/version.h"
 #include "bindings.h"
 #include "computing.h"
+#include "sandbox/mode.h"
 
 namespace py = pybind11;
 
@@ -24,6 +25,15 @@ constexpr const char* kSetThreadsDoc = R"(set_threads(n)
 Sets the number of threads of later computations, from 1 to 1024. Waits for running computations. Results have the same
 bits for any number of threads. Default: SVNET_THREADS, or else the number of CPUs that the process may use.
 Raises svnet.Error for another number.
+)";
+
+constexpr const char* kSetSandboxDoc = R"(set_sandbox(mode)
+--
+
+How weights in HDF5 files are read from now on. "on" (the default): the HDF5 library, which is not safe against files made
+to attack it, decodes them in a child process that can do nothing else. "off": in this process, for files that you trust,
+where the system allows no such processes.
+Raises svnet.Error for another mode.
 )";
 
 /// Raises `type` with a message. Bytes that are not UTF-8, for example in a path, are written as \xff.
@@ -54,6 +64,13 @@ void set_threads(const py::object& n) {
   svnet::python::set_threads(svnet::python::whole_number("set_threads", "n", n, 1, 1024));
 }
 
+void set_sandbox(const py::object& mode) {
+  using svnet::sandbox::Mode;
+  const std::string name =
+      svnet::python::text("set_sandbox", "mode", mode, svnet::python::quoted_names<Mode>().c_str());
+  svnet::sandbox::set_mode(svnet::enum_from_name<Mode>("[set_sandbox] mode", name));
+}
+
 }  // namespace
 
 PYBIND11_MODULE(_svnet, module) {
@@ -65,6 +82,7 @@ PYBIND11_MODULE(_svnet, module) {
   bind_error(module);
   module.attr("__version__") = svnet::kVersion;
   module.def("set_threads", set_threads, kSetThreadsDoc, py::arg("n"));
+  module.def("set_sandbox", set_sandbox, kSetSandboxDoc, py::arg("mode"));
   svnet::python::bind_camera_pose(module);
   svnet::python::bind_clustering(module);
   svnet::python::bind_grouping(module);

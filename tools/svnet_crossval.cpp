@@ -156,5 +156,6 @@ int main(int argc, char** argv) {
       .shows_default();
   command.add("--output", arguments.output, "The folder of the results").required().value_name("DIR");
   command.add_flag("--open", arguments.open, "Shows report.html in a browser");
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) { cross_validate(arguments, console); });
 }

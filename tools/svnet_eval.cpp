@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   command.add("--json", json, "Writes evaluation.json here too. With /dev/stdout no tables are printed")
       .value_name("FILE");
   command.add_flag("--open", open, "Shows report.html in a browser");
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     const bool folder_given = fs::is_directory(source);
     const fs::path folder = folder_given ? source : fs::path("runs") / source.stem();

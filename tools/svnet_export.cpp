@@ -98,6 +98,7 @@ int main(int argc, char** argv) {
                    "The image has RGB values 0 to 255, and the network preprocesses it. Otherwise the caller does as "
                    "svnet-info says. It must have the network's size in any case");
   command.add("--opset", a.opset, "The version of ONNX' operations, 13 to 17").value_name("N").shows_default();
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     check_together(a);
     write_exports(a, console);

@@ -54,6 +54,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       .one_of(names_of<ExifOrientation>())
       .shows_default();
   command.add_precision();
+  command.add_sandbox();
   return command.run(
       argc, argv,
       [&](Console& console) {

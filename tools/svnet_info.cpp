@@ -42,6 +42,7 @@ int main(int argc, char** argv) {
   command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
   command.add_precision().needs(asked);
   command.add_flag("--tensors", tensors, "Lists the tensors of a model file too").excludes(asked);
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (what.empty()) {
       if (plan) wrong_usage("--plan takes a model file or the name of a backbone");

@@ -65,6 +65,7 @@ int main(int argc, char** argv) {
       .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
       .one_of(names_of<ExifOrientation>())
       .shows_default();
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     io::check_can_be_written(output);

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
                "millimetres for a mesh that only makes sense so, in a line of its own)")
           .positive()
           .needs(meshes);
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (unit.given()) options.metres_per_unit = metres_per_unit;
     const RenderSummary made = render_dataset(options, console.messages());

@@ -60,6 +60,7 @@ int main(int argc, char** argv) {
       .value_name("KEY=VALUE")
       .one_value_per_use();
   command.add_flag("--open", open, "Shows the page in a browser");
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (runs.size() > 1 && !overrides.empty()) wrong_usage("--set is for a single run");
     for (const fs::path& run : runs) static_cast<void>(config_file_of(run));

@@ -56,6 +56,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       .in_interval(0, 30)
       .shows_default();
   command.add_flag("--resume", resume, "Resume from OUTPUT.snapshot if it exists");
+  command.add_sandbox();
   return command.run(
       argc, argv,
       [&](Console& console) {

@@ -189,6 +189,7 @@ int main(int argc, char** argv) {
            "cross")
       .value_name("FILE");
   command.add_precision();
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (a.json == "-") a.json = "/dev/stdout";
     a.options.groups = group_rule(a.groups, a.options.objects);

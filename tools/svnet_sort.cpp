@@ -231,6 +231,7 @@ int main(int argc, char** argv) {
            "Writes a PNG image: which objects and groups are alike, how far they are apart, and where they were cut")
       .value_name("FILE");
   command.add_precision();
+  command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
     if (a.json == "-") a.json = "/dev/stdout";
     sort_objects(a, wanted_groups(a.groups), inference_options_from_environment(command.precision()), console);

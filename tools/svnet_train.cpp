@@ -48,6 +48,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       .shows_default();
   command.add_flag("--dry-run", dry, "Every stage once on a few views of each category; leaves nothing behind");
   command.add_flag("--open", open, "Evaluates the model as svnet-eval does, and shows report.html in a browser");
+  command.add_sandbox();
   return command.run(
       argc, argv,
       [&](Console& console) {

@@ -35,6 +35,7 @@ from ._svnet import (
     pose_grid,
     purity,
     semantic_scores,
+    set_sandbox,
     set_threads,
     ward,
 )
@@ -63,6 +64,7 @@ __all__ = [
     "pose_grid",
     "purity",
     "semantic_scores",
+    "set_sandbox",
     "set_threads",
     "ward",
 ]

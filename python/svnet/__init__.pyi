@@ -34,6 +34,7 @@ __all__ = [
     "pose_grid",
     "purity",
     "semantic_scores",
+    "set_sandbox",
     "set_threads",
     "ward",
 ]
@@ -137,5 +138,6 @@ def semantic_scores(
     seed: SupportsIndex = 0,
     singletons: Literal["zero", "skip"] = "zero",
 ) -> _SemanticScores: ...
+def set_sandbox(mode: Literal["on", "off"]) -> None: ...
 def set_threads(n: SupportsIndex) -> None: ...
 def ward(features: ArrayLike, n_clusters: SupportsIndex) -> NDArray[np.int64]: ...

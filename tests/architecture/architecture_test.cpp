@@ -18,6 +18,7 @@ struct Room {
 
 const std::vector<Room> kRooms{
     {"base", {}},
+    {"sandbox", {"base"}},
     {"image", {"base"}},
     {"mpi", {"base"}},
     {"semantics", {"base"}},
@@ -41,7 +42,7 @@ const std::vector<Room> kRooms{
     {"io/files", {"base"}},
     {"io/images", {"base", "image", "io/files"}},
     {"io/events", {"base", "image", "io/images"}},
-    {"io/hdf5", {"base", "io/files"}},
+    {"io/hdf5", {"base", "sandbox", "io/files"}},
     {"io/tensors", {"base", "nn/*", "io/files"}},
     {"io/keras", {"base", "nn/*", "models", "io/files", "io/hdf5"}},
     {"io/models",
@@ -56,7 +57,7 @@ const std::vector<Room> kRooms{
      {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "data/model_part.h", "io/files", "io/keras",
       "io/models", "io/onnx", "io/tensors", "predict"}},
     {"serve", {"base", "image", "view", "frame", "nn/*", "models", "data/model.h", "io/images", "predict"}},
-    {"simulation", {"base", "image", "view", "localise", "data", "io/*"}},
+    {"simulation", {"base", "sandbox", "image", "view", "localise", "data", "io/*"}},
     {"train/config", {"base", "frame", "semantics", "nn/*", "models"}},
     {"train",
      {"base", "image", "semantics", "view", "frame", "nn/*", "models", "data", "data/model.h", "io/*", "train/config"}},

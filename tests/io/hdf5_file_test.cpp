@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "io/files/file_hash.h"
+#include "sandbox/mode.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -119,6 +120,44 @@ TEST_CASE("strings that h5py wrote are read") {
   CHECK(file.text_list_attribute("", "list") == Texts{"a", "bc"});
   CHECK(file.text_list_attribute("", "empty").empty());
   CHECK(file.text_list_attribute("", "nothing").empty());
+}
+
+TEST_CASE("a file is read the same without the sandbox") {
+  const Hdf5File in_sandbox = Hdf5File::open(kH5py);
+  sandbox::set_mode(sandbox::Mode::off);
+  const Hdf5File here = Hdf5File::open(kH5py);
+  sandbox::set_mode(sandbox::Mode::on);
+  CHECK(here.members("") == in_sandbox.members(""));
+  for (const char* name : {"packed", "float16", "scalar"})
+    CHECK(here.read<float>(name).values == in_sandbox.read<float>(name).values);
+  for (const char* name : {"int8", "uint16", "int64"})
+    CHECK(here.read<std::int64_t>(name).values == in_sandbox.read<std::int64_t>(name).values);
+  for (const char* name : {"variable", "fixed", "space_padded"})
+    CHECK(here.read<std::string>(name).values == in_sandbox.read<std::string>(name).values);
+  CHECK_THROWS_WITH(here.read<float>("int8"), kH5py + ": dataset 'int8': holds values of type int8, not floats");
+}
+
+TEST_CASE("large datasets arrive whole, whatever their shape") {
+  const TemporaryFolder folder;
+  const std::vector<Shape> shapes{{1'500'001},    {3, 500'001},          {500'001, 3},
+                                  {7, 3, 71'429}, {2, 2, 2, 2, 100'003}, {1, 1, 1'000'003}};
+  for (const Shape& shape : shapes) {
+    std::size_t count = 1;
+    for (const Index extent : shape) count *= static_cast<std::size_t>(extent);
+    std::vector<double> values(count);
+    for (std::size_t i = 0; i < count; ++i) values[i] = static_cast<double>(i);
+    Hdf5File file = Hdf5File::create(folder.path() / "large.h5");
+    file.write<double>("x", shape, values);
+    file.close();
+    const auto read = Hdf5File::open(folder.path() / "large.h5").read<double>("x");
+    CHECK(read.shape == shape);
+    CHECK((read.values == values));
+  }
+  const std::string long_text(3'000'000, 'x');
+  Hdf5File file = Hdf5File::create(folder.path() / "texts.h5");
+  file.write<std::string>("x", {3}, Texts{"a", long_text, "b"});
+  file.close();
+  CHECK((Hdf5File::open(folder.path() / "texts.h5").read<std::string>("x").values == Texts{"a", long_text, "b"}));
 }
 
 TEST_CASE("values of another type are refused, numbers out of range too") {

@@ -54,6 +54,12 @@ def test_set_threads_refuses(n):
         svnet.set_threads(n)
 
 
+@pytest.mark.parametrize("mode", ["On", "", 1, None])
+def test_set_sandbox_refuses(mode):
+    with pytest.raises(svnet.Error, match=r"\[set_sandbox\] mode"):
+        svnet.set_sandbox(mode)
+
+
 def test_calls_from_several_threads_while_the_number_of_threads_changes(random, threads):
     features = random.normal(size=(300, 8))
     expected = svnet.ward(features, 5)

@@ -5,9 +5,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <functional>
+#include <limits>
 #include <tuple>
 
 #include "io/images/image_file.h"
+#include "sandbox/mode.h"
+#include "simulation/meshes/mesh_check.h"
 #include "simulation/texture.h"
 #include "temporary_folder.h"
 
@@ -108,6 +112,54 @@ TEST_CASE("meshes are read with their unit, colours and textures") {
 
   CHECK(read_mesh(folder.write("a.stl", kStl)).triangles.size() == 1);
   CHECK(read_mesh(folder.write("a.ply", kPly)).triangles.size() == 1);
+}
+
+TEST_CASE("a mesh is read the same without the sandbox") {
+  const TemporaryFolder folder;
+  const auto path = folder.write("square.obj", kSquare);
+  folder.write("square.mtl", "newmtl paint\nKd 0.25 0.5 0.75\nmap_Kd paint.png\n");
+  write_png(folder.path() / "paint.png", {1, 2, {255, 0, 0, 0, 255, 0}});
+  const Mesh in_sandbox = read_mesh(path);
+  sandbox::set_mode(sandbox::Mode::off);
+  const Mesh here = read_mesh(path);
+  sandbox::set_mode(sandbox::Mode::on);
+  CHECK(here.points == in_sandbox.points);
+  CHECK(here.normals == in_sandbox.normals);
+  CHECK(here.uv == in_sandbox.uv);
+  REQUIRE(here.images.size() == in_sandbox.images.size());
+  CHECK(here.images[0].rgb == in_sandbox.images[0].rgb);
+  REQUIRE(here.materials.size() == in_sandbox.materials.size());
+  CHECK(here.materials[0].colour == in_sandbox.materials[0].colour);
+  CHECK(here.materials[0].image == in_sandbox.materials[0].image);
+}
+
+TEST_CASE("a mesh that makes no sense is not taken from another process") {
+  const Mesh good{.points = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0)},
+                  .triangles = {{{0, 1, 2}, 0}},
+                  .normals = {{Vec3(0, 0, 1), Vec3(0, 0, 1), Vec3(0, 0, 1)}},
+                  .uv = {},
+                  .metal_uv = {},
+                  .tints = {},
+                  .materials = {Material{}},
+                  .images = {}};
+  CHECK(is_consistent(good));
+  const auto refuses = [&](const std::function<void(Mesh&)>& change) {
+    Mesh mesh = good;
+    change(mesh);
+    return !is_consistent(mesh);
+  };
+  CHECK(refuses([](Mesh& m) { m.triangles[0].corner[1] = 3; }));
+  CHECK(refuses([](Mesh& m) { m.triangles[0].material = 1; }));
+  CHECK(refuses([](Mesh& m) { m.triangles[0].material = -1; }));
+  CHECK(refuses([](Mesh& m) { m.triangles.clear(); }));
+  CHECK(refuses([](Mesh& m) { m.normals.clear(); }));
+  CHECK(refuses([](Mesh& m) { m.uv.resize(2); }));
+  CHECK(refuses([](Mesh& m) { m.points[2].x() = std::numeric_limits<float>::quiet_NaN(); }));
+  CHECK(refuses([](Mesh& m) { m.materials[0].image = 0; }));
+  CHECK(refuses([](Mesh& m) { m.materials[0].texture = static_cast<Texture>(99); }));
+  CHECK(refuses([](Mesh& m) { m.materials[0].texture = Texture::image; }));
+  CHECK(refuses([](Mesh& m) { m.images.push_back({2, 2, std::vector<std::uint8_t>(11)}); }));
+  CHECK(refuses([](Mesh& m) { m.images.push_back({Index{1} << 40, Index{1} << 40, {}}); }));
 }
 
 TEST_CASE("a mesh has the colours of its vertices") {

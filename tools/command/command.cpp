@@ -12,6 +12,7 @@
 #include "base/version.h"
 #include "command/help_text.h"
 #include "command/interrupt.h"
+#include "sandbox/mode.h"
 
 namespace svnet::command {
 namespace {
@@ -80,6 +81,15 @@ Argument Command::add_precision() {
              "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
       .one_of({"f32", "bf16"})
       .value_name("f32|bf16");
+}
+
+Argument Command::add_sandbox() {
+  return add_callback(
+             "--sandbox",
+             [](const std::string& text) { sandbox::set_mode(enum_from_name<sandbox::Mode>("--sandbox", text)); },
+             "on: files that libraries decode (HDF5, meshes) are read in a process that can do nothing else. off: in "
+             "this one, for files that you trust (default: on)")
+      .value_name("on|off");
 }
 
 int Command::run(int argc, char** argv, const std::function<void(Console&)>& body, const Communicator& communicator) {

@@ -57,6 +57,9 @@ class Command {
   /// "f32" or "bf16", "" if it was not given.
   const std::string& precision() const { return precision_; }
 
+  /// Adds --sandbox, which sets sandbox::mode(). For programs that read files which libraries decode.
+  Argument add_sandbox();
+
   /// Parses the arguments and runs `body`. SVNET_MAX_ISA and --threads are in force while it runs.
   ///
   /// Returns the exit status: 0 done, 1 failed (one line on stderr says what, where and what to do), 2 wrong usage,

@@ -7,13 +7,9 @@
 #include "base/index.h"
 #include "io/hdf5/error_stack.h"
 #include "io/hdf5/handle.h"
+#include "io/hdf5/limits.h"
 
 namespace svnet::io::hdf5 {
-
-/// The largest memory that a dataset or attribute may need.
-inline constexpr std::uint64_t kLargestBytes = std::uint64_t{1} << 36;
-/// Deflate compresses at most 1032 to 1 (zlib's technical details).
-inline constexpr std::uint64_t kLargestCompression = 1040;
 
 /// The place of an object or attribute, for messages: "'a/b'", "attribute 'x' of 'a/b'".
 std::string object_place(const std::string& object);
@@ -29,11 +25,9 @@ struct Extent {
 
 /// An open file, shared by the functions of Hdf5File. Its caller must hold a Quiet.
 struct File {
-  std::string name;        // in messages
+  std::string name{};      // in messages
   std::uint64_t size = 0;  // in bytes, of a file that is read
-  int descriptor = -1;     // of a file that is read
-  std::uint64_t base = 0;  // the address 0 of HDF5: a file may begin with a user block
-  Handle file;             // last: closed first
+  Handle file{};
 
   /// Throws "FILE: WHERE: parts".
   template <class... Parts>
@@ -46,11 +40,6 @@ struct File {
     if (result < 0) fail_at(where, what, ": ", reason());
     return result;
   }
-
-  /// Sets descriptor and base of a file that was opened for reading.
-  void look_up_layout();
-  /// The raw bytes at an address of a file that is read.
-  std::vector<char> bytes(std::uint64_t address, std::uint64_t count, const std::string& where) const;
 
   /// Follows hard links from the root. Throws Error if a part of the path is missing or a link of another kind.
   Handle object(const std::string& path) const;

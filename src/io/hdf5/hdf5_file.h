@@ -10,7 +10,7 @@
 
 namespace svnet::io {
 namespace hdf5 {
-struct File;  // the open file, private to this folder
+struct OpenFile;  // private to this folder
 }
 
 /// Values in row-major order; an empty shape is a single value.
@@ -25,8 +25,10 @@ struct Hdf5Array {
 ///
 /// Throws Error that names the file, the object and the HDF5 library's reason if anything fails; the library itself
 /// prints nothing. Only hard links are followed. Refused are damaged files, external and virtual datasets, filters
-/// other than gzip and shuffle, sizes that the file cannot hold, and text that is not UTF-8 without NUL. The library
-/// decodes the headers, so this is no protection against files made to exploit its bugs.
+/// other than gzip and shuffle, sizes that the file cannot hold, and text that is not UTF-8 without NUL.
+///
+/// The library is not safe against files made to attack it. So a file is read in a child process, which can do nothing
+/// but read it (sandbox/child.h), unless sandbox::mode() was `off` when it was opened; what it says is checked.
 ///
 /// Not thread-safe: only one thread at a time may use a file. A file that is written cannot be read before close().
 /// It holds no time stamps: the same calls give the same bytes. Its metadata have checksums (HDF5 1.8 format).
@@ -82,8 +84,8 @@ class Hdf5File {
   void write_number_attribute(const std::string& object, const std::string& name, T value);
 
  private:
-  explicit Hdf5File(std::unique_ptr<hdf5::File> state);
-  std::unique_ptr<hdf5::File> state_;
+  explicit Hdf5File(std::unique_ptr<hdf5::OpenFile> state);
+  std::unique_ptr<hdf5::OpenFile> state_;
 };
 
 }  // namespace svnet::io

@@ -1,8 +1,7 @@
-// Objects of a file, opened only after their headers, links and storage were checked.
+// Objects of a file, opened only after their links and storage were checked.
 #include <algorithm>
 
 #include "io/hdf5/file_state.h"
-#include "io/hdf5/object_header.h"
 
 namespace svnet::io::hdf5 {
 namespace {
@@ -32,7 +31,7 @@ void check_storage(const File& file, const Handle& creation, const std::string& 
 void check_chunk(const File& file, const Handle& creation, std::size_t element, const std::string& where) {
   hsize_t dims[H5S_MAX_RANK];
   const int rank = file.done(H5Pget_chunk(creation.id(), H5S_MAX_RANK, dims), where, "its chunks cannot be read");
-  const std::uint64_t largest = kLargestCompression * file.size;
+  const std::uint64_t largest = std::min(kLargestCompression * file.size, largest_decoded(file.size));
   std::uint64_t bytes = element;
   for (int i = 0; i < rank; ++i) {
     if (dims[i] == 0 || bytes > largest / dims[i])
@@ -57,23 +56,10 @@ void check_size(const File& file, const Handle& dataset, const Handle& creation,
   if (count * element > stored * (filtered ? kLargestCompression : 1))
     file.fail_at(where, "declares ", count * element, " bytes but only ", stored,
                  " are stored; the file is incomplete or damaged");
+  if (count * element > largest_decoded(file.size))
+    file.fail_at(where, "declares ", count * element, " bytes, more than the limit of ", largest_decoded(file.size),
+                 " for what a file of ", file.size, " bytes is decoded to");
 }
-
-// Up to 1.10 the library gives addresses of objects and does not check their headers. Later versions check them.
-#if H5_VERSION_GE(1, 12, 0)
-void check_root_header(const File&, const Handle&, const std::string&) {}
-void check_linked_header(const File&, const H5L_info_t&, const std::string&) {}
-#else
-void check_root_header(const File& file, const Handle& root, const std::string& where) {
-  if (file.descriptor < 0) return;
-  H5O_info_t info;
-  file.done(H5Oget_info(root.id(), &info), where, "cannot be opened");
-  check_object_header(file, info.addr, where);
-}
-void check_linked_header(const File& file, const H5L_info_t& link, const std::string& where) {
-  if (file.descriptor >= 0) check_object_header(file, link.u.address, where);
-}
-#endif
 
 }  // namespace
 
@@ -81,7 +67,6 @@ Handle File::object(const std::string& path) const {
   const std::string where = object_place(path);
   Handle current(H5Oopen(file.id(), "/", H5P_DEFAULT), H5Oclose);
   done(current.id(), where, "cannot be opened");
-  check_root_header(*this, current, where);
   for (const std::string& part : path_parts(path)) {
     if (H5Iget_type(current.id()) != H5I_GROUP) fail_at(where, "is missing");
     if (done(H5Lexists(current.id(), part.c_str(), H5P_DEFAULT), where, "cannot be looked up") == 0)
@@ -90,7 +75,6 @@ Handle File::object(const std::string& path) const {
     done(H5Lget_info(current.id(), part.c_str(), &link, H5P_DEFAULT), where, "cannot be looked up");
     if (link.type != H5L_TYPE_HARD)
       fail_at(where, "is reached through a soft or external link; these are not followed, store the object itself");
-    check_linked_header(*this, link, where);
     Handle next(H5Oopen(current.id(), part.c_str(), H5P_DEFAULT), H5Oclose);
     done(next.id(), where, "cannot be opened");
     current = std::move(next);

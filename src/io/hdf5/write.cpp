@@ -2,8 +2,8 @@
 
 #include "base/text.h"
 #include "io/hdf5/datatype.h"
-#include "io/hdf5/file_state.h"
 #include "io/hdf5/hdf5_file.h"
+#include "io/hdf5/open_file.h"
 
 namespace svnet::io {
 namespace {
@@ -93,7 +93,7 @@ void write_attribute(const File& file, const std::string& object, const std::str
 
 void Hdf5File::create_group(const std::string& group) {
   const Quiet quiet;
-  open_or_create_group(*state_, hdf5::path_parts(group));
+  open_or_create_group(state_->here, hdf5::path_parts(group));
 }
 
 template <class T>
@@ -102,21 +102,21 @@ void Hdf5File::write(const std::string& dataset, const std::vector<Index>& shape
   const std::string where = "dataset " + hdf5::object_place(dataset);
   Index count = 1;
   for (const Index extent : shape) count *= extent;
-  check(static_cast<std::size_t>(count) == values.size(), state_->name, ": ", where, ": ", values.size(),
+  check(static_cast<std::size_t>(count) == values.size(), state_->here.name, ": ", where, ": ", values.size(),
         " values given for a shape of ", count);
   const std::vector<std::string> parts = hdf5::path_parts(dataset);
-  check(!parts.empty(), state_->name, ": ", where, ": a dataset needs a name");
-  const Handle parent = open_or_create_group(*state_, std::span(parts).first(parts.size() - 1));
+  check(!parts.empty(), state_->here.name, ": ", where, ": a dataset needs a name");
+  const Handle parent = open_or_create_group(state_->here, std::span(parts).first(parts.size() - 1));
   const Handle space = dataspace(shape), type = file_type<T>(), memory = memory_type<T>();
   const Handle creation = without_times(H5P_DATASET_CREATE);
-  const auto stored = library_values(*state_, where, values);
+  const auto stored = library_values(state_->here, where, values);
   const Handle handle(
       H5Dcreate2(parent.id(), parts.back().c_str(), type.id(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
       H5Dclose);
-  state_->done(handle.id(), where, "cannot be written");
+  state_->here.done(handle.id(), where, "cannot be written");
   if (!values.empty())
-    state_->done(H5Dwrite(handle.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data()), where,
-                 "cannot be written");
+    state_->here.done(H5Dwrite(handle.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data()), where,
+                      "cannot be written");
 }
 
 template void Hdf5File::write(const std::string&, const std::vector<Index>&, std::span<const float>);
@@ -127,19 +127,19 @@ template void Hdf5File::write(const std::string&, const std::vector<Index>&, std
 
 void Hdf5File::write_text_attribute(const std::string& object, const std::string& name, const std::string& value) {
   const Quiet quiet;
-  write_attribute<std::string>(*state_, object, name, {}, std::span(&value, 1));
+  write_attribute<std::string>(state_->here, object, name, {}, std::span(&value, 1));
 }
 
 void Hdf5File::write_text_list_attribute(const std::string& object, const std::string& name,
                                          std::span<const std::string> values) {
   const Quiet quiet;
-  write_attribute(*state_, object, name, {static_cast<Index>(values.size())}, values);
+  write_attribute(state_->here, object, name, {static_cast<Index>(values.size())}, values);
 }
 
 template <class T>
 void Hdf5File::write_number_attribute(const std::string& object, const std::string& name, T value) {
   const Quiet quiet;
-  write_attribute<T>(*state_, object, name, {}, std::span<const T>(&value, 1));
+  write_attribute<T>(state_->here, object, name, {}, std::span<const T>(&value, 1));
 }
 
 template void Hdf5File::write_number_attribute(const std::string&, const std::string&, double);

@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/text.h"
+#include "io/files/whole_file.h"
 
 namespace svnet::simulation {
 namespace {
@@ -33,7 +34,7 @@ bool is_absolute(const std::string& path) {
 }  // namespace
 
 CollectionFiles::CollectionFiles(const fs::path& mesh, const fs::path& collection, Say warn)
-    : name_(mesh.string()), warn_(std::move(warn)) {
+    : MeshFiles(mesh.string()), warn_(std::move(warn)) {
   const fs::path folder = normal(mesh).parent_path();
   fs::path root = collection.empty() ? folder : normal(collection);
   if (!lies_in(folder, root)) root = folder;
@@ -66,7 +67,7 @@ std::optional<fs::path> CollectionFiles::find(const char* kind, const std::strin
         warn(joined(kind, " '", printable(reference), "' is taken from beside the mesh"));
         return place.folder / file;
       }
-  check(!leaves, name_, ": ", kind, " '", printable(reference), "' lies outside the collection ",
+  check(!leaves, name(), ": ", kind, " '", printable(reference), "' lies outside the collection ",
         places_.front().collection.string(), "; copy it there and name it by a relative path");
   for (const Place& place : places_)
     if (const fs::path path = (place.folder / "../materials/textures" / file).lexically_normal();
@@ -74,5 +75,7 @@ std::optional<fs::path> CollectionFiles::find(const char* kind, const std::strin
       return path;
   return std::nullopt;
 }
+
+std::string CollectionFiles::contents(const fs::path& found) const { return io::whole_file(found); }
 
 }  // namespace svnet::simulation

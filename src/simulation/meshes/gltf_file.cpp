@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/text.h"
-#include "io/files/whole_file.h"
 
 namespace svnet::simulation {
 namespace {
@@ -93,7 +92,7 @@ void GltfFile::check_here(bool condition, const Parts&... parts) const {
   if (!condition) fail(files_.name(), ": ", parts...);
 }
 
-GltfFile::GltfFile(std::string_view file, const CollectionFiles& files) : files_(files) {
+GltfFile::GltfFile(std::string_view file, const MeshFiles& files) : files_(files) {
   std::string_view text = file;
   if (file.starts_with("glTF")) {
     check_here(file.size() >= 20, "is a GLB of ", file.size(), " bytes; is the file incomplete?");
@@ -218,7 +217,7 @@ std::string_view GltfFile::buffer(std::size_t index) const {
   if (!contents) {
     const auto path = files_.find("buffer", decoded_uri(uri));
     check_here(path.has_value(), "its buffer '", printable(uri), "' is missing");
-    contents = io::whole_file(*path);
+    contents = files_.contents(*path);
   }
   return *contents;
 }

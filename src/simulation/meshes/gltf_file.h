@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "collection_files.h"
+#include "mesh_files.h"
 
 namespace svnet::simulation {
 
@@ -18,7 +18,7 @@ class GltfFile {
 
   /// A GLB, or JSON. Also throws Error if the file requires an extension that is not read, by its name and with
   /// what to do. `file` and `files` must live as long.
-  GltfFile(std::string_view file, const CollectionFiles& files);
+  GltfFile(std::string_view file, const MeshFiles& files);
 
   const Json& root() const { return json_; }
 
@@ -47,7 +47,7 @@ class GltfFile {
   std::string_view buffer_view(std::size_t index) const;
   /// The bytes of a "data:" URI with base64; none for any other URI.
   std::optional<std::string> data_of_uri(const std::string& uri) const;
-  const CollectionFiles& files() const { return files_; }
+  const MeshFiles& files() const { return files_; }
 
  private:
   template <class... Parts>
@@ -57,7 +57,7 @@ class GltfFile {
   void add_values(const Json& accessor, const Json& where, std::size_t count, std::size_t width, bool normalise,
                   std::vector<double>& to) const;
 
-  const CollectionFiles& files_;
+  const MeshFiles& files_;
   Json json_;
   std::string_view binary_;                                  // of a GLB
   mutable std::vector<std::optional<std::string>> buffers_;  // that do not lie in the file, once read

@@ -197,7 +197,7 @@ class GltfReader {
 
 }  // namespace
 
-void read_gltf(std::string_view file, const CollectionFiles& files, MeshDraft& draft) {
+void read_gltf(std::string_view file, const MeshFiles& files, MeshDraft& draft) {
   const GltfFile gltf(file, files);
   GltfReader(gltf, draft).read();
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "mesh_check.h"
 #include "simulation/least_rotation.h"
 #include "simulation/sculptor.h"
 
@@ -13,8 +14,6 @@ namespace svnet::simulation {
 namespace {
 
 using Eigen::Vector3d;
-
-constexpr std::size_t kMostTriangles = 5'000'000;
 
 /// Coordinates beyond this say nothing about an image.
 bool is_place(const Vec2& uv) { return uv.allFinite() && uv.cwiseAbs().maxCoeff() < 1e6f; }
@@ -48,6 +47,9 @@ int MeshDraft::add(const Material& material) {
 }
 
 int MeshDraft::add(Image image) {
+  texture_pixels_ += image.height * image.width;
+  check(texture_pixels_ <= kMostTexturePixels, name_, ": its textures have more than ", kMostTexturePixels / 1'000'000,
+        " megapixels; make them smaller");
   mesh_.images.push_back(std::move(image));
   return static_cast<int>(mesh_.images.size()) - 1;
 }

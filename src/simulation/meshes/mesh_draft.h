@@ -28,6 +28,7 @@ class MeshDraft {
 
   /// Indices of them.
   int add(const Material&);
+  /// Throws Error if all images together have more pixels than kMostTexturePixels.
   int add(Image image);
   const Material& material(int index) const { return mesh_.materials[static_cast<std::size_t>(index)]; }
 
@@ -45,6 +46,7 @@ class MeshDraft {
  private:
   std::string name_;
   Mesh mesh_;
+  Index texture_pixels_ = 0;
 };
 
 /// Triangles of a polygon of 3 or more corners, as indices of them: fans if it is convex, else by ear clipping in

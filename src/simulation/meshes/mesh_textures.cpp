@@ -17,7 +17,10 @@ std::optional<int> MeshTextures::file(const std::string& reference) {
   const auto [same, is_unread] = by_path_.try_emplace(path->string());
   if (is_unread) {
     try {
-      same->second = draft_.add(io::decode_texture(path->string(), io::image_contents(*path)));
+      const std::string contents = files_.contents(*path);
+      check(!contents.empty(), path->string(), ": is empty, expected an image (PNG, JPEG or WebP)");
+      same->second = draft_.add(io::decode_texture(
+          path->string(), {reinterpret_cast<const std::uint8_t*>(contents.data()), contents.size()}));
     } catch (const Error& error) {
       fail(files_.name(), ": texture ", error.what());
     }

@@ -3,9 +3,9 @@
 #include <optional>
 #include <string>
 
-#include "collection_files.h"
 #include "io/images/image_codecs.h"
 #include "mesh_draft.h"
+#include "mesh_files.h"
 
 namespace svnet::simulation {
 
@@ -13,7 +13,7 @@ namespace svnet::simulation {
 /// decoded, or lies outside the collection, throws Error.
 class MeshTextures {
  public:
-  MeshTextures(const CollectionFiles& files, MeshDraft& draft) : files_(files), draft_(draft) {}
+  MeshTextures(const MeshFiles& files, MeshDraft& draft) : files_(files), draft_(draft) {}
 
   /// The index of the image in a file, by the path that the mesh gives.
   std::optional<int> file(const std::string& reference);
@@ -21,7 +21,7 @@ class MeshTextures {
   int embedded(const std::string& reference, io::Bytes contents);
 
  private:
-  const CollectionFiles& files_;
+  const MeshFiles& files_;
   MeshDraft& draft_;
   std::map<std::string, std::optional<int>> by_reference_, by_path_;
 };

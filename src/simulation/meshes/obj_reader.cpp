@@ -5,7 +5,6 @@
 #include <set>
 
 #include "base/error.h"
-#include "io/files/whole_file.h"
 #include "mesh_readers.h"
 #include "mesh_textures.h"
 #include "mtl_file.h"
@@ -17,7 +16,7 @@ namespace {
 
 class ObjReader {
  public:
-  ObjReader(const CollectionFiles& files, MeshDraft& draft) : files_(files), textures_(files, draft), draft_(draft) {}
+  ObjReader(const MeshFiles& files, MeshDraft& draft) : files_(files), textures_(files, draft), draft_(draft) {}
 
   void read(std::string_view file) {
     file = without_byte_order_mark(file);
@@ -177,7 +176,7 @@ class ObjReader {
   bool read_material_file(const std::string& name) {
     const auto path = files_.find("material file", name);
     if (!path) return false;
-    for (MtlMaterial& material : parse_mtl(io::whole_file(*path)))
+    for (MtlMaterial& material : parse_mtl(files_.contents(*path)))
       materials_.try_emplace(material.name, UsedMaterial{material, -1, -1, false});
     return true;
   }
@@ -219,7 +218,7 @@ class ObjReader {
     return used;
   }
 
-  const CollectionFiles& files_;
+  const MeshFiles& files_;
   MeshTextures textures_;
   MeshDraft& draft_;
   std::size_t line_number_ = 0;
@@ -239,8 +238,6 @@ class ObjReader {
 
 }  // namespace
 
-void read_obj(std::string_view file, const CollectionFiles& files, MeshDraft& draft) {
-  ObjReader(files, draft).read(file);
-}
+void read_obj(std::string_view file, const MeshFiles& files, MeshDraft& draft) { ObjReader(files, draft).read(file); }
 
 }  // namespace svnet::simulation

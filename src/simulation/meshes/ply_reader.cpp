@@ -57,7 +57,7 @@ struct Colours {
 
 class PlyReader {
  public:
-  PlyReader(const PlyHeader& header, PlyBody body, const CollectionFiles& files, MeshDraft& draft)
+  PlyReader(const PlyHeader& header, PlyBody body, const MeshFiles& files, MeshDraft& draft)
       : header_(header), body_(body), textures_(files, draft), draft_(draft) {}
 
   void read() {
@@ -222,7 +222,7 @@ class PlyReader {
 
 }  // namespace
 
-void read_ply(std::string_view file, const CollectionFiles& files, MeshDraft& draft) {
+void read_ply(std::string_view file, const MeshFiles& files, MeshDraft& draft) {
   const PlyHeader header = take_ply_header(draft.name(), file);
   PlyReader(header, PlyBody(header.format, file), files, draft).read();
 }

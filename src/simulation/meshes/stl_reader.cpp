@@ -116,7 +116,7 @@ void read_packed(std::string_view file, MeshDraft& draft) {
   }
 }
 
-void read_text(std::string_view file, const CollectionFiles& files, MeshDraft& draft) {
+void read_text(std::string_view file, const MeshFiles& files, MeshDraft& draft) {
   Material material;
   material.colour = material.second = kNoColour;
   const int number = draft.add(material);
@@ -156,7 +156,7 @@ void read_text(std::string_view file, const CollectionFiles& files, MeshDraft& d
 
 }  // namespace
 
-void read_stl(std::string_view file, const CollectionFiles& files, MeshDraft& draft) {
+void read_stl(std::string_view file, const MeshFiles& files, MeshDraft& draft) {
   // Packed files may begin with "solid" as well: the length tells.
   const bool fits = file.size() >= kHeader + 4 &&
                     file.size() == kHeader + 4 + kFacet * std::size_t{packed<std::uint32_t>(file, kHeader)};
