@@ -127,6 +127,8 @@ FoldedGraph once_part(const FoldedGraph& whole, const Cut& cut, NodeId angles) {
                  from);
   once.parameters.set(dense.name + "/kernel", rows_of(whole, cut, [&](NodeId id) { return id != angles; }));
   if (bias.defined()) once.parameters.set(dense.name + "/bias", bias);
+  // A reference, which would be copied otherwise.
+  // cppcheck-suppress returnStdMoveLocal
   return std::move(once);
 }
 

@@ -13,11 +13,18 @@ using hdf5::Request;
 
 template <class T>
 constexpr As as() {
-  if constexpr (std::is_same_v<T, float>) return As::real32;
-  if constexpr (std::is_same_v<T, double>) return As::real64;
-  if constexpr (std::is_same_v<T, std::int64_t>) return As::signed64;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return As::unsigned64;
-  if constexpr (std::is_same_v<T, std::string>) return As::text;
+  if constexpr (std::is_same_v<T, float>) {
+    return As::real32;
+  } else if constexpr (std::is_same_v<T, double>) {
+    return As::real64;
+  } else if constexpr (std::is_same_v<T, std::int64_t>) {
+    return As::signed64;
+  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
+    return As::unsigned64;
+  } else {
+    static_assert(std::is_same_v<T, std::string>);
+    return As::text;
+  }
 }
 
 /// `Sink`: Collected, or CollectedNumbers.

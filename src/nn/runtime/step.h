@@ -29,7 +29,8 @@ class Step {
   virtual void run(const StepBuffers& buffers) const = 0;
   /// Number of floats of scratch memory that a run needs.
   virtual Index scratch(Index batch, int threads) const {
-    static_cast<void>(batch), static_cast<void>(threads);
+    static_cast<void>(batch);
+    static_cast<void>(threads);
     return 0;
   }
   virtual std::string kernel() const = 0;     ///< its name in reports: "winograd 3x3"

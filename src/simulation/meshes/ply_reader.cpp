@@ -57,7 +57,7 @@ struct Colours {
 
 class PlyReader {
  public:
-  PlyReader(const PlyHeader& header, PlyBody body, const MeshFiles& files, MeshDraft& draft)
+  PlyReader(const PlyHeader& header, const PlyBody& body, const MeshFiles& files, MeshDraft& draft)
       : header_(header), body_(body), textures_(files, draft), draft_(draft) {}
 
   void read() {
