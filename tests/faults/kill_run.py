@@ -20,7 +20,8 @@ import time
 
 from workplace import PROGRAMS, Workplace, grows, incomplete, is_temporary
 
-TRAIN = "svnet-train in/config.yaml --output out/run --set training.epochs=12 --set scores.problems=60000"
+# --open: evaluation and report too. There is no desktop, so no browser.
+TRAIN = "svnet-train --open in/config.yaml --output out/run --set training.epochs=12 --set scores.problems=60000"
 COMPARED = ("features-tiny_xception.h5", "scores.h5", "model.safetensors", "metrics.csv")
 # The last file of a run that tells its stage, from the end on.
 STAGES = (("report.html", "report"), ("evaluation.json", "evaluation"), ("model.safetensors", "after training"),
