@@ -4,6 +4,8 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/text.h"
+
 namespace svnet {
 
 /// An error that a user can cause and fix. Its text is one line: what was wrong, where, and what to do.
@@ -30,9 +32,11 @@ std::string joined(const Parts&... parts) {
   return text.str();
 }
 
+/// Throws Error with the joined parts. They may be text of a file: what would break the line, or change what a terminal
+/// shows, is replaced (`printable`).
 template <class... Parts>
 [[noreturn]] void fail(const Parts&... parts) {
-  throw Error(joined(parts...));
+  throw Error(printable(joined(parts...)));
 }
 
 /// Throws Error with the joined parts unless `condition` holds.

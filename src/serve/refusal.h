@@ -17,7 +17,7 @@ class Refusal : public Error {
 
 template <class... Parts>
 [[noreturn]] void refuse(int status, const Parts&... parts) {
-  throw Refusal(status, joined(parts...));
+  throw Refusal(status, printable(joined(parts...)));
 }
 
 /// Throws Refusal with the status and the joined parts unless `condition` holds.

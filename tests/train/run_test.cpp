@@ -143,6 +143,19 @@ TEST_CASE("an interrupted training resumes to the same bits") {
   CHECK(log.has("training: goes on after epoch 2"));
 }
 
+TEST_CASE("a run that was killed between its last checkpoint and metrics.csv writes the last row when it goes on") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const Config config = small_config(temporary.path() / "data");
+  const std::filesystem::path run = temporary.path() / "run";
+  const auto expected = results(config, run, {});
+  const std::string metrics = file_contents(run / "metrics.csv");
+  std::filesystem::remove(run / "model.safetensors");
+  temporary.write("run/metrics.csv", metrics.substr(0, metrics.rfind('\n', metrics.size() - 2) + 1));
+  CHECK(results(config, run, {}) == expected);
+  CHECK(file_contents(run / "metrics.csv") == metrics);
+}
+
 TEST_CASE("a training that is interrupted after every step goes on to the same bits") {
   const TemporaryFolder temporary;
   write_small_dataset(temporary.path() / "data");

@@ -83,10 +83,10 @@ void write_attribute(const File& file, const std::string& object, const std::str
   const std::string where = hdf5::attribute_place(object, name);
   const Handle parent = file.object(object), space = dataspace(shape), type = file_type<T>(), memory = memory_type<T>();
   const auto stored = library_values(file, where, values);
-  const Handle attribute(H5Acreate2(parent.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT),
-                         H5Aclose);
+  Handle attribute(H5Acreate2(parent.id(), name.c_str(), type.id(), space.id(), H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
   file.done(attribute.id(), where, "cannot be written");
   if (!values.empty()) file.done(H5Awrite(attribute.id(), memory.id(), stored.data()), where, "cannot be written");
+  file.done(attribute.reset() ? 0 : -1, where, "cannot be written");
 }
 
 }  // namespace
@@ -110,13 +110,16 @@ void Hdf5File::write(const std::string& dataset, const std::vector<Index>& shape
   const Handle space = dataspace(shape), type = file_type<T>(), memory = memory_type<T>();
   const Handle creation = without_times(H5P_DATASET_CREATE);
   const auto stored = library_values(state_->here, where, values);
-  const Handle handle(
+  Handle handle(
       H5Dcreate2(parent.id(), parts.back().c_str(), type.id(), space.id(), H5P_DEFAULT, creation.id(), H5P_DEFAULT),
       H5Dclose);
   state_->here.done(handle.id(), where, "cannot be written");
   if (!values.empty())
     state_->here.done(H5Dwrite(handle.id(), memory.id(), H5S_ALL, H5S_ALL, H5P_DEFAULT, stored.data()), where,
                       "cannot be written");
+  // The library keeps the values of small datasets until they are closed, and says only then that they were not
+  // written.
+  state_->here.done(handle.reset() ? 0 : -1, where, "cannot be written");
 }
 
 template void Hdf5File::write(const std::string&, const std::vector<Index>&, std::span<const float>);

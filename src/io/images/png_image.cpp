@@ -29,6 +29,8 @@ class PngDecoder {
         [](png_structp, png_const_charp) {});
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
     check(info_ != nullptr, "libpng cannot be used: not enough memory, or another version than at compile time");
+    // Only what the pixels need. libpng takes as much memory for the others as the file says that they are long.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
   }
   ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngDecoder(const PngDecoder&) = delete;

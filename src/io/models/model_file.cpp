@@ -53,7 +53,17 @@ void check_backbone(const Model& model) {
   const auto images = model.backbone_graph.inputs();
   check(images.size() == 1 && model.backbone_graph.node(images[0]).shape == Shape{p.height, p.width, 3},
         "the backbone does not take images of ", p.height, "x", p.width, ", as preprocessing makes them");
-  static_cast<void>(model.backbone_graph.find(model.backbone_output));
+  const NodeId output = model.backbone_graph.find(model.backbone_output);
+  check(model.backbone_graph.ancestors({output})[static_cast<std::size_t>(images[0])],
+        "the backbone's output does not depend on the image");
+}
+
+/// An input that the score does not depend on has no place in the compiled graph.
+void check_all_inputs_count(const Graph& head) {
+  const std::vector<bool> counts = head.ancestors({head.output()});
+  for (const NodeId input : head.inputs())
+    check(counts[static_cast<std::size_t>(input)], "the score of the head does not depend on its input '",
+          head.node(input).name, "'");
 }
 
 void check_square(const Preprocessing& p) {
@@ -73,6 +83,7 @@ void check_camera_model(const Model& model) {
             head.node(head.output()).shape == Shape{1},
         "the head does not take the backbone's ", element_count(features),
         " features and the angles, or gives more than one score");
+  check_all_inputs_count(head);
 }
 
 void check_gain(const GainCalibration& gain) {
@@ -114,6 +125,7 @@ void check_frame_model(const Model& model) {
   check(head.inputs().size() == 1 && head.node(head.inputs()[0]).shape == Shape{inputs} &&
             head.node(head.output()).shape == Shape{1},
         "the head does not take the ", inputs, " inputs of a camera pose, or gives more than one score");
+  check_all_inputs_count(head);
   check_seen(model);
   check_gain(model.gain);
   check_next_head(model);

@@ -16,8 +16,12 @@ namespace {
 
 using json = nlohmann::ordered_json;  // for reading too: a second kind of JSON takes seconds to compile
 
-/// YAML as JSON: a scalar without quotes that is a number becomes one.
-json json_of(const YAML::Node& node) {
+constexpr int kMostValues = 10'000;
+
+/// YAML as JSON: a scalar without quotes that is a number becomes one. Aliases are written out, and a few lines of
+/// aliases of aliases may stand for any number of values, so Error, which begins with `name`, if there are not `left`.
+json json_of(const YAML::Node& node, const std::string& name, int& left) {
+  check(left-- > 0, name, ": holds more than ", kMostValues, " values, expected a camera");
   switch (node.Type()) {
     case YAML::NodeType::Scalar: {
       double number = 0;
@@ -27,12 +31,12 @@ json json_of(const YAML::Node& node) {
     }
     case YAML::NodeType::Sequence: {
       json list = json::array();
-      for (const YAML::Node& item : node) list.push_back(json_of(item));
+      for (const YAML::Node& item : node) list.push_back(json_of(item, name, left));
       return list;
     }
     case YAML::NodeType::Map: {
       json mapping = json::object();
-      for (const auto& entry : node) mapping[entry.first.Scalar()] = json_of(entry.second);
+      for (const auto& entry : node) mapping[entry.first.Scalar()] = json_of(entry.second, name, left);
       return mapping;
     }
     case YAML::NodeType::Null:
@@ -54,7 +58,8 @@ json document_in(const std::string& text, const std::string& name) {
     }
   }
   try {
-    return json_of(YAML::Load(text));
+    int left = kMostValues;
+    return json_of(YAML::Load(text), name, left);
   } catch (const YAML::Exception& error) {
     fail(name, ":", error.mark.line + 1, ": is neither JSON nor YAML: ", printable(error.msg));
   }

@@ -122,6 +122,8 @@ void Inference::run(std::span<const float* const> inputs, Index batch, float* ou
     const ArenaLease lease(*this, arena_size(batch));
     return run(inputs, batch, output, &*lease);
   }
+  check(inputs.size() == program_.inputs.size(), "[runtime] takes ", program_.inputs.size(), " inputs, got ",
+        inputs.size());
   Arena& arena = *own;
   reserve(arena, arena_size(batch));
   std::vector<const float*>& from = arena.group_inputs;

@@ -98,6 +98,7 @@ class PlyReader {
   }
 
   void read_vertices(const PlyElement& element) {
+    check(draft_.points.empty(), draft_.name(), ": has vertices in two places of its header, expected one");
     std::array<std::size_t, 3> at{};
     for (std::size_t c = 0; c < 3; ++c) {
       const int found = element.find({std::string_view("xyz").substr(c, 1)});

@@ -117,7 +117,9 @@ YamlValue parse(const std::string& text, const std::string& source, const std::s
   std::istringstream stream(trimmed);
   TreeBuilder builder(source, root_key);
   try {
-    YAML::LoadAll(trimmed);  // an error of syntax first: it may reach the builder as a mapping that nobody wrote
+    // An error of syntax first: it may reach the builder as a mapping that nobody wrote. Only the first document: with
+    // "][" the parser would find empty documents without end.
+    YAML::Load(trimmed);
     YAML::Parser parser(stream);
     parser.HandleNextDocument(builder);
     TreeBuilder rest(source, root_key);

@@ -128,6 +128,13 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
   const CheckpointFiles files{run.folder / "checkpoint-last.safetensors", run.folder / "checkpoint-best.safetensors"};
   auto from = resumed_checkpoint(run, files, graph, model.input_fingerprint, trainer.optimizer_shapes(), resume);
   std::optional<TrainingEvents> events;
+  const auto write_metrics = [&](const Checkpoint& state) {
+    io::write_atomically(run.folder / "metrics.csv", state.metrics);
+    if (!events) events.emplace(run.folder);
+    events->add(state.metrics);
+  };
+  // A run that was killed may have a newer checkpoint than metrics, and no epoch left that would write them.
+  if (from && from->epoch > 0 && run.communicator.is_root()) write_metrics(*from);
   trainer.train(from ? std::move(*from)
                      : trainer.initial_state(
                            models::trained_parameters(graph, model.backbone_parameters, model.head, options.seed)),
@@ -136,9 +143,7 @@ void train_into(Model& model, const Run& run, const Graph& graph, const Training
                        if (!run.communicator.is_root()) return;
                        if (is_best) write_checkpoint(files.best, state);
                        write_checkpoint(files.last, state);
-                       io::write_atomically(run.folder / "metrics.csv", state.metrics);
-                       if (!events) events.emplace(run.folder);
-                       events->add(state.metrics);
+                       write_metrics(state);
                      },
                  .interrupted =
                      [&](const Checkpoint& state) {
