@@ -16,9 +16,10 @@ struct LineChart {
   /// What the horizontal axis says at its two ends, and what it counts.
   std::string first{"epoch 1"}, last{};  ///< last empty: the number of the last epoch
   std::string along{"by epoch"};
+  bool long_labels = false;  ///< more room for the labels, which then have no number
 };
 
-/// The chart as SVG, with each line's label at its end; nothing if no line has a value.
+/// The chart as SVG, with each line's label and last value at its end; nothing if no line has a value.
 std::string line_chart(const LineChart& chart);
 
 }  // namespace svnet::report

@@ -120,7 +120,8 @@ std::string moves_html(const Table& table) {
                     .lines = {},
                     .first = "0 % moved",
                     .last = "100 %",
-                    .along = "by the share of poses in which the camera moved"};
+                    .along = "by the share of poses in which the camera moved",
+                    .long_labels = true};
     for (std::size_t p = 0; p < table.pipelines.size(); ++p) {
       Line line{table.pipelines[p], {}};
       for (const std::size_t step : steps) line.values.push_back(table.cells[p][step][metric].mean);

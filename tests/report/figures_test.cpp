@@ -76,6 +76,14 @@ TEST_CASE("a line chart says where each line begins and ends, and has no figure 
   CHECK(count(svg, "<polyline") == 1);
   CHECK(line_chart({"Loss", {{"training", {kNone}}}}).empty());
   CHECK_THAT(line_chart({"Loss", {{"training", {0.5}}}}), !Contains("nan"));
+  const std::string moves = line_chart({.title = "FM",
+                                        .lines = {{"mobilenet_v2_kmeans", {0.5, 0.6}}},
+                                        .first = "0 % moved",
+                                        .last = "100 %",
+                                        .along = "by share",
+                                        .long_labels = true});
+  CHECK_THAT(moves, Contains(">mobilenet_v2_kmeans<") && Contains(">0 % moved<") && Contains(">100 %<"));
+  CHECK_THAT(alternative_of(moves), Contains("FM by share. mobilenet_v2_kmeans: from 0.500 to 0.600"));
 }
 
 TEST_CASE("boxes are quantiles") {

@@ -132,3 +132,14 @@ TEST_CASE("a page of the paper's size is smaller than 5 MB") {
       }
   CHECK(report_html(report).size() < 5'000'000);
 }
+
+TEST_CASE("a table with shares of moves has their curve") {
+  RunReport report = small_report();
+  const auto page = [&] { return report_html(report); };
+  CHECK_THAT(page(), !Contains("Moving only where it pays"));
+  Table& table = report.tables[0];
+  table.selectors = {"top", "move_25", "move_50", "move_75", "svnet"};
+  for (auto& row : table.cells) row.resize(5, row[0]);
+  CHECK_THAT(page(),
+             Contains("Moving only where it pays") && Contains("by the share of poses in which the camera moved"));
+}
