@@ -33,7 +33,7 @@ constexpr long kAllowed[] = {
     // itself
     SYS_exit, SYS_exit_group, SYS_futex, SYS_getpid, SYS_gettid, SYS_rt_sigaction, SYS_rt_sigprocmask, SYS_rt_sigreturn,
     SYS_sigaltstack, SYS_restart_syscall, SYS_sched_yield, SYS_getrusage,
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#ifdef SVNET_SANITIZED
     SYS_pipe2,  // how the sanitizers look whether memory can be read
 #if defined(__x86_64__)
     SYS_pipe,

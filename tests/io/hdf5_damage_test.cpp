@@ -69,7 +69,7 @@ int refused_copies(const std::string& bytes, int tries, std::uint64_t seed,
 
 }  // namespace
 
-TEST_CASE("damaged HDF5 files are read or refused") {
+TEST_CASE("damaged HDF5 files are read or refused", "[slow]") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "good.h5";
   const std::string fixtures = SVNET_FIXTURES "/io/";
