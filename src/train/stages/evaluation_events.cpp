@@ -14,7 +14,7 @@
 namespace svnet::train {
 namespace {
 
-constexpr SheetLayout kLayout{.cell = 200, .gap = 4, .margin = 20, .text = 18, .font_size = 0.38};
+constexpr SheetLayout kPanelLayout{.cell = 200, .gap = 4, .margin = 20, .text = 18, .font_size = 0.38};
 
 /// The predicted and the true scores of a pose; empty if it has no true scores.
 SheetGroup half_spheres(const Run& run, Index pose, std::span<const double> predicted, std::span<const double> scores) {
@@ -47,7 +47,7 @@ std::optional<Image> panel(const Run& run, std::span<const double> predicted, st
     lines.back().groups.push_back(std::move(group));
   }
   if (lines.empty()) return {};
-  return contact_sheet(lines, kLayout);
+  return contact_sheet(lines, kPanelLayout);
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace svnet::train {
 
 /// The mean of the scores of several backbones, of the same views or sets of views; `pose`: that of each. Rank
-/// stability is the mean of theirs. Not written by a backbone: gets this fingerprint.
+/// stability is the mean of theirs. The result has this fingerprint.
 Scores mean_of_backbones(const std::vector<Scores>& parts, const std::vector<std::string>& backbones,
                          std::span<const std::int32_t> pose, const std::string& fingerprint);
 
