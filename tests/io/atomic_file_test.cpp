@@ -202,3 +202,15 @@ TEST_CASE("contents in memory may go to a pipe or a device, which stay") {
   write_atomically("/dev/null", contents);
   CHECK(fs::is_character_file("/dev/null"));
 }
+
+TEST_CASE("a file that cannot get its name is an error, and nothing is left of it") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "result";
+  const auto write = [&](const fs::path& temporary) {
+    std::ofstream(temporary) << "written";
+    fs::create_directories(path / "in the way");  // meanwhile
+  };
+  CHECK_THROWS_WITH(write_atomically(path, write), Catch::Contains("result: cannot be written: "));
+  CHECK(entries(folder.path()) == 1);
+  CHECK(fs::is_directory(path));
+}
