@@ -16,11 +16,13 @@ namespace {
 
 using json = nlohmann::ordered_json;  // for reading too: a second kind of JSON takes seconds to compile
 
-constexpr int kMostValues = 10'000;
+constexpr int kMostValues = 10'000, kDeepest = 64;
 
 /// YAML as JSON: a scalar without quotes that is a number becomes one. Aliases are written out, and a few lines of
 /// aliases of aliases may stand for any number of values, so Error, which begins with `name`, if there are not `left`.
-json json_of(const YAML::Node& node, const std::string& name, int& left) {
+/// A list may be an element of itself, so Error below kDeepest too.
+json json_of(const YAML::Node& node, const std::string& name, int& left, int depth = 0) {
+  check(depth < kDeepest, name, ": lists are nested too deeply, expected a camera");
   check(left-- > 0, name, ": holds more than ", kMostValues, " values, expected a camera");
   switch (node.Type()) {
     case YAML::NodeType::Scalar: {
@@ -31,12 +33,12 @@ json json_of(const YAML::Node& node, const std::string& name, int& left) {
     }
     case YAML::NodeType::Sequence: {
       json list = json::array();
-      for (const YAML::Node& item : node) list.push_back(json_of(item, name, left));
+      for (const YAML::Node& item : node) list.push_back(json_of(item, name, left, depth + 1));
       return list;
     }
     case YAML::NodeType::Map: {
       json mapping = json::object();
-      for (const auto& entry : node) mapping[entry.first.Scalar()] = json_of(entry.second, name, left);
+      for (const auto& entry : node) mapping[entry.first.Scalar()] = json_of(entry.second, name, left, depth + 1);
       return mapping;
     }
     case YAML::NodeType::Null:
