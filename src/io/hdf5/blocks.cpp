@@ -10,7 +10,8 @@ bool is_chunked(hid_t dataset) {
   return H5Pget_layout(creation.id()) == H5D_CHUNKED;
 }
 
-/// Goes through an array in row-major order: at each step a range of one dimension, whole behind it, one index before.
+/// Goes through an array in row-major order. Each step is one index of the first dimensions, a range of the next one,
+/// and all of those after it.
 class Slabs {
  public:
   Slabs(const std::vector<Index>& shape, std::uint64_t most)

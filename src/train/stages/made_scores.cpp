@@ -8,6 +8,16 @@
 
 namespace svnet::train {
 
+Scores scores_of_sums(const semantics::ScoreSums& sums, std::span<const std::int32_t> pose, ScoresOrigin origin,
+                      std::vector<std::string> paths) {
+  semantics::SemanticScores made = scores_from(sums);
+  origin.problems = static_cast<Index>(made.problems);
+  Scores scores{std::move(origin),     std::move(made.individual),     std::move(made.global),     {},
+                std::move(made.count), std::move(made.standard_error), rank_stability(sums, pose), std::move(paths)};
+  scores.scaled = semantics::scaled_per_pose(scores.individual, pose);
+  return scores;
+}
+
 Scores mean_of_backbones(const std::vector<Scores>& parts, const std::vector<std::string>& backbones,
                          std::span<const std::int32_t> pose, const std::string& fingerprint) {
   std::vector<semantics::SemanticScores> values;

@@ -5,8 +5,14 @@
 #include <vector>
 
 #include "data/scores.h"
+#include "semantics/score_sums.h"
 
 namespace svnet::train {
+
+/// The scores of views, or of sets of views, from the sums of their problems, whose number becomes origin.problems.
+/// `pose`: of each.
+Scores scores_of_sums(const semantics::ScoreSums& sums, std::span<const std::int32_t> pose, ScoresOrigin origin,
+                      std::vector<std::string> paths);
 
 /// The mean of the scores of several backbones, of the same views or sets of views; `pose`: that of each. Rank
 /// stability is the mean of theirs. The result has this fingerprint.

@@ -51,24 +51,15 @@ Scores scores_of(const std::filesystem::path& path, const Run& run, const Featur
                      semantics::continue_set_scores(distances, pairs, problems, options, Parallel::shared(),
                                                     run.communicator, to, progress);
                    });
-  semantics::SemanticScores made = scores_from(sums);
   Config::Scores drawn = config.scores;
   drawn.min_categories = fewest_categories(run.held_out, drawn);
-  Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
-                             .seed = options.seed,
-                             .sampler = "pairs of views; " + sampler_text(drawn, false),
-                             .clustering = name_of(drawn.clustering),
-                             .metric = "fm",
-                             .input_fingerprint = fingerprint},
-                std::move(made.individual),
-                std::move(made.global),
-                {},
-                std::move(made.count),
-                std::move(made.standard_error),
-                rank_stability(sums, problems.pose_of_view()),
-                paths_of(run.dataset, pairs)};
-  scores.scaled = semantics::scaled_per_pose(scores.individual, problems.pose_of_view());
-  return scores;
+  return scores_of_sums(sums, problems.pose_of_view(),
+                        {.seed = options.seed,
+                         .sampler = "pairs of views; " + sampler_text(drawn, false),
+                         .clustering = name_of(drawn.clustering),
+                         .metric = "fm",
+                         .input_fingerprint = fingerprint},
+                        paths_of(run.dataset, pairs));
 }
 
 }  // namespace

@@ -18,7 +18,6 @@
 
 namespace svnet::train {
 using semantics::ScoreSums;
-using semantics::SemanticScores;
 using semantics::ViewWeights;
 
 namespace {
@@ -109,23 +108,13 @@ Scores make_scores(const std::filesystem::path& path, const ViewDataset& dataset
       path, fingerprint, problems.views(), messages, how, [&](ScoreSums& to, const semantics::ScoreProgress& progress) {
         continue_scores(distances, problems, options, Parallel::shared(), how.communicator, to, progress);
       });
-  SemanticScores made = scores_from(sums);
-
-  Scores scores{ScoresOrigin{.problems = static_cast<Index>(made.problems),
-                             .seed = options.seed,
-                             .sampler = sampler_text(drawn, !weights.empty()),
-                             .clustering = name_of(drawn.clustering),
-                             .metric = "fm",
-                             .input_fingerprint = fingerprint},
-                std::move(made.individual),
-                std::move(made.global),
-                {},
-                std::move(made.count),
-                std::move(made.standard_error),
-                rank_stability(sums, problems.pose_of_view()),
-                features.paths};
-  scores.scaled = semantics::scaled_per_pose(scores.individual, problems.pose_of_view());
-  return scores;
+  return scores_of_sums(sums, problems.pose_of_view(),
+                        {.seed = options.seed,
+                         .sampler = sampler_text(drawn, !weights.empty()),
+                         .clustering = name_of(drawn.clustering),
+                         .metric = "fm",
+                         .input_fingerprint = fingerprint},
+                        features.paths);
 }
 
 Scores scores_stage(const Run& run, FeaturesStage& features, const RoundPredictor& predict) {
