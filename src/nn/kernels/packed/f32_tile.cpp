@@ -81,10 +81,10 @@ HWY_INLINE void store_first(std::size_t count, PanelVector value, float* p) {
 #endif
 }
 
-/// A MultiplyTile (panel.h) of kRows rows and kPanels panels.
-template <int kRows, int kPanels>
-HWY_NOINLINE HWY_FLATTEN void multiply_tile(const PanelRows& a, Index depth, const float* panel, Index panel_stride,
-                                            const TileOutput& out) {
+/// A MultiplyTile (panel.h) of kRows rows and kPanels panels. kWhole: it has all columns of its panels.
+template <int kRows, int kPanels, bool kAccumulate, bool kWhole>
+HWY_INLINE void multiply_tile_as(const PanelRows& a, Index depth, const float* panel, Index panel_stride,
+                                 const TileOutput& out) {
   const PanelTag d;
   constexpr int kVectors = kPanels * kVectorsPerPanel;
   PanelVector sum[kRows][kVectors];
@@ -92,13 +92,14 @@ HWY_NOINLINE HWY_FLATTEN void multiply_tile(const PanelRows& a, Index depth, con
   const auto for_each_vector = [&](const auto& body) HWY_ATTR {
     unrolled<kRows>([&](auto r) HWY_ATTR { unrolled<kVectors>([&](auto v) HWY_ATTR { body(r, v); }); });
   };
-  const bool is_whole = out.columns >= kPanels * kPanel;
-  if (!out.accumulate)
-    for_each_vector([&](auto r, auto v) HWY_ATTR { sum[r][v] = hn::Zero(d); });
-  else if (is_whole)
-    for_each_vector([&](auto r, auto v) HWY_ATTR { sum[r][v] = hn::LoadU(d, at(r, v)); });
-  else
-    for_each_vector([&](auto r, auto v) HWY_ATTR { sum[r][v] = load_first(lanes_within(v, out.columns), at(r, v)); });
+  for_each_vector([&](auto r, auto v) HWY_ATTR {
+    if constexpr (!kAccumulate)
+      sum[r][v] = hn::Zero(d);
+    else if constexpr (kWhole)
+      sum[r][v] = hn::LoadU(d, at(r, v));
+    else
+      sum[r][v] = load_first(lanes_within(v, out.columns), at(r, v));
+  });
   const Index run = a.block_stride == a.run ? depth : a.run;
   const float* block = a.data;
   for (Index rest = depth; rest > 0; rest -= run, block += a.block_stride, panel += run * kPanel)
@@ -106,17 +107,35 @@ HWY_NOINLINE HWY_FLATTEN void multiply_tile(const PanelRows& a, Index depth, con
   if (out.finish != nullptr) {
     const TileFinish& finish = *out.finish;
     const auto low = hn::Set(d, finish.low), high = hn::Set(d, finish.high);
-    for_each_vector([&](auto r, auto v) HWY_ATTR {
-      auto y = hn::Add(sum[r][v], hn::LoadU(d, finish.bias + in_panel(v, kPanel)));
-      if (finish.residual != nullptr)
-        y = hn::Add(y, hn::LoadU(d, finish.residual + r * finish.residual_stride + in_panel(v, kPanel)));
-      sum[r][v] = clamped(y, low, high);
-    });
+    for_each_vector([&](auto r, auto v)
+                        HWY_ATTR { sum[r][v] = hn::Add(sum[r][v], hn::LoadU(d, finish.bias + in_panel(v, kPanel))); });
+    if (finish.residual != nullptr)
+      for_each_vector([&](auto r, auto v) HWY_ATTR {
+        sum[r][v] =
+            hn::Add(sum[r][v], hn::LoadU(d, finish.residual + r * finish.residual_stride + in_panel(v, kPanel)));
+      });
+    for_each_vector([&](auto r, auto v) HWY_ATTR { sum[r][v] = clamped(sum[r][v], low, high); });
   }
-  if (is_whole)
-    for_each_vector([&](auto r, auto v) HWY_ATTR { hn::StoreU(sum[r][v], d, at(r, v)); });
+  for_each_vector([&](auto r, auto v) HWY_ATTR {
+    if constexpr (kWhole)
+      hn::StoreU(sum[r][v], d, at(r, v));
+    else
+      store_first(lanes_within(v, out.columns), sum[r][v], at(r, v));
+  });
+}
+
+template <int kRows, int kPanels>
+HWY_NOINLINE HWY_FLATTEN void multiply_tile(const PanelRows& a, Index depth, const float* panel, Index panel_stride,
+                                            const TileOutput& out) {
+  const bool is_whole = out.columns >= kPanels * kPanel;
+  if (!out.accumulate && is_whole)
+    multiply_tile_as<kRows, kPanels, false, true>(a, depth, panel, panel_stride, out);
+  else if (!out.accumulate)
+    multiply_tile_as<kRows, kPanels, false, false>(a, depth, panel, panel_stride, out);
+  else if (is_whole)
+    multiply_tile_as<kRows, kPanels, true, true>(a, depth, panel, panel_stride, out);
   else
-    for_each_vector([&](auto r, auto v) HWY_ATTR { store_first(lanes_within(v, out.columns), sum[r][v], at(r, v)); });
+    multiply_tile_as<kRows, kPanels, true, false>(a, depth, panel, panel_stride, out);
 }
 
 template <int kPanels, int... rows>

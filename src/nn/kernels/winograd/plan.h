@@ -40,7 +40,7 @@ struct WinogradPlan {
         block(even(tiles(), use == Use::by_tiles      ? 28
                             : use == Use::by_channels ? 128
                                                       : 256)),
-        run(std::min<Index>(w.c, 64)) {}
+        run(std::min<Index>(w.c, 128)) {}
 
   Index tiles() const { return window.n * tiles_down * tiles_across; }
   WinogradTile tile(Index i) const {
