@@ -1,15 +1,30 @@
-// machine/gemm, machine/memory: the peaks of the machine, in the units of the other benchmarks. Counters: `flops` and
-// `bytes` of one iteration.
+// machine/fma, machine/gemm, machine/memory: the peaks of the machine, in the units of the other benchmarks. Counters:
+// `flops` and `bytes` of one iteration.
 #include <algorithm>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "base/parallel.h"
+#include "bench/multiply_adds.h"
 #include "nn/kernels/packed/packed_gemm.h"
 
 namespace svnet {
 namespace {
+
+/// Multiply-adds in registers on all threads: what no product can exceed, but for Winograd, which needs fewer.
+void fma(benchmark::State& state) {
+  constexpr Index kRounds = Index{1} << 20;
+  Parallel& parallel = Parallel::shared();
+  const Index chunks = parallel.threads();
+  double flops = 0;
+  for (auto _ : state) {
+    parallel.for_chunks(chunks, 1, [&](Index, Index, int) { benchmark::DoNotOptimize(bench::multiply_adds(kRounds)); });
+    flops = static_cast<double>(chunks) * bench::multiply_add_flops(kRounds);
+  }
+  state.counters["flops"] = flops;
+}
+BENCHMARK(fma)->Name("machine/fma")->Unit(benchmark::kMillisecond)->UseRealTime();
 
 /// The packed micro-kernel on all threads; each has its own operands, which stay in its cache.
 void gemm(benchmark::State& state) {
