@@ -21,6 +21,15 @@ void philox_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 
   }
 }
 
+void philox_columns(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, const std::uint32_t* first,
+                    std::size_t count, const std::array<std::uint32_t*, 4>& words) {
+  for (std::size_t i = 0; i < count; ++i) {
+    counter[0] = first[i];
+    const auto of_counter = philox4x32(counter, key);
+    for (std::size_t word = 0; word < 4; ++word) words[word][i] = of_counter[word];
+  }
+}
+
 #else
 
 /// One step in each lane of 64 bits. The upper halves of the lanes have no meaning.
@@ -32,14 +41,11 @@ HWY_INLINE StepVector product(StepVector a, std::uint32_t b) {
   return hn::MulEven(hn::BitCast(words, a), hn::Set(words, b));
 }
 
-void philox_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words) {
+/// The ten rounds on kVectors vectors of counters, which fill each other's waits. The upper halves of the lanes must be
+/// 0 or have no meaning.
+template <std::size_t kVectors>
+HWY_INLINE void ten_rounds(StepVector (&c)[kVectors][4], std::array<std::uint32_t, 2> key) {
   const Steps d;
-  constexpr std::size_t kVectors = kPhiloxRun / hn::MaxLanes(Steps());  // they wait for each other's rounds
-  const std::size_t lanes = hn::Lanes(d);
-  StepVector c[kVectors][4];
-  for (std::size_t v = 0; v < kVectors; ++v)
-    for (std::size_t word = 0; word < 4; ++word)
-      c[v][word] = word == 2 ? hn::Iota(d, counter[2] + v * lanes) : hn::Set(d, counter[word]);
   for (int round = 0; round < 10; ++round, key = {key[0] + 0x9E3779B9, key[1] + 0xBB67AE85}) {
     const auto k0 = hn::Set(d, key[0]), k1 = hn::Set(d, key[1]);
     for (std::size_t v = 0; v < kVectors; ++v) {
@@ -50,6 +56,49 @@ void philox_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 
       c[v][3] = p0;
     }
   }
+}
+
+/// words[w][i]: word w of the counter that begins with first[i].
+void philox_columns(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, const std::uint32_t* first,
+                    std::size_t count, const std::array<std::uint32_t*, 4>& words) {
+  const Steps d;
+  const hn::Rebind<std::uint32_t, Steps> halves;
+  constexpr std::size_t kVectors = 2;
+  const std::size_t lanes = hn::Lanes(d), together = kVectors * lanes;
+  for (std::size_t i = 0; i < count; i += together) {
+    // The last ones are made with others, and moved back.
+    const std::size_t begin = count < together ? 0 : std::min(i, count - together);
+    alignas(64) std::uint32_t few[2 * kVectors * 8] = {};
+    const bool is_short = count < together;
+    if (is_short) std::copy(first, first + count, few);
+    const std::uint32_t* from = is_short ? few : first + begin;
+    StepVector c[kVectors][4];
+    for (std::size_t v = 0; v < kVectors; ++v) {
+      c[v][0] = hn::PromoteTo(d, hn::LoadU(halves, from + v * lanes));
+      for (std::size_t word = 1; word < 4; ++word) c[v][word] = hn::Set(d, counter[word]);
+    }
+    ten_rounds(c, key);
+    for (std::size_t word = 0; word < 4; ++word)
+      for (std::size_t v = 0; v < kVectors; ++v) {
+        const auto made = hn::TruncateTo(halves, c[v][word]);
+        if (is_short)
+          hn::StoreU(made, halves, few + v * lanes);
+        else
+          hn::StoreU(made, halves, words[word] + begin + v * lanes);
+        if (is_short && v + 1 == kVectors) std::copy(few, few + count, words[word]);
+      }
+  }
+}
+
+void philox_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words) {
+  const Steps d;
+  constexpr std::size_t kVectors = kPhiloxRun / hn::MaxLanes(Steps());  // they wait for each other's rounds
+  const std::size_t lanes = hn::Lanes(d);
+  StepVector c[kVectors][4];
+  for (std::size_t v = 0; v < kVectors; ++v)
+    for (std::size_t word = 0; word < 4; ++word)
+      c[v][word] = word == 2 ? hn::Iota(d, counter[2] + v * lanes) : hn::Set(d, counter[word]);
+  ten_rounds(c, key);
   std::uint64_t pairs[2 * kPhiloxRun];
   const auto low = hn::Set(d, 0xffffffff);
   for (std::size_t v = 0; v < kVectors; ++v)
@@ -71,9 +120,17 @@ HWY_AFTER_NAMESPACE();
 namespace svnet {
 
 HWY_EXPORT(philox_run);
+HWY_EXPORT(philox_columns);
 
 void philox4x32_run(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key, PhiloxRun& words) {
   HWY_DYNAMIC_DISPATCH(philox_run)(counter, key, words);
+}
+
+void random_words_of_each(std::uint64_t seed, Stream stream, std::uint32_t high, const std::uint32_t* low,
+                          std::size_t count, std::uint32_t step, std::array<std::uint32_t*, 4> words) {
+  HWY_DYNAMIC_DISPATCH(philox_columns)
+  ({0, high, step, static_cast<std::uint32_t>(stream)},
+   {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)}, low, count, words);
 }
 
 }  // namespace svnet

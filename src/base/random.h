@@ -45,6 +45,10 @@ inline std::array<std::uint32_t, 4> random_words(std::uint64_t seed, Stream stre
                     {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)});
 }
 
+/// The words of step `step` of `count` indices high << 32 | low[i], as random_words: word w of index i in words[w][i].
+void random_words_of_each(std::uint64_t seed, Stream stream, std::uint32_t high, const std::uint32_t* low,
+                          std::size_t count, std::uint32_t step, std::array<std::uint32_t*, 4> words);
+
 /// The random numbers of one index of a stream: key = seed (low word first), counter = index (low, high), step,
 /// stream. They do not depend on threads, ranks or interruptions. A stream gives 2^34 words, then repeats.
 class RandomStream {

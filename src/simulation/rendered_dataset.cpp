@@ -11,6 +11,7 @@
 #include "io/files/atomic_file.h"
 #include "io/files/fresh_folder.h"
 #include "io/images/depth_file.h"
+#include "io/images/image_codecs.h"
 #include "io/images/image_file.h"
 #include "io/views/camera_file.h"
 #include "simulation/collected_pose.h"
@@ -37,24 +38,31 @@ const Image& fullest_view(const CollectedPose& pose) {
   return pose.views[best].image.rgb;
 }
 
-/// Writes the views into `folder` and everything else into `extra`. Returns the pose's entry of the manifest.
-Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, const fs::path& folder,
-                const fs::path& extra) {
-  fs::create_directories(folder);
-  fs::create_directories(extra);
-  io::write_png(extra / "overview_background.png", pose.overview.background.rgb);
-  io::write_depth_png(extra / "overview_background_depth.png", pose.overview.background.depth);
-  io::write_png(extra / "overview.png", pose.overview.current.rgb);
-  io::write_depth_png(extra / "overview_depth.png", pose.overview.current.depth);
+/// Writes the views into `place` of the folder and everything else into `place` of its _extra. Returns the pose's entry
+/// of the manifest.
+Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, io::FreshFolder& folder,
+                const fs::path& place) {
+  const fs::path extra = "_extra" / place;
+  const auto add_image = [&](const fs::path& path, const Image& image) {
+    folder.add(path, io::encoded_png(path.string(), image, io::PngContent::photograph));
+  };
+  const auto add_depth = [&](const fs::path& path, const DepthImage& depth) {
+    folder.add(path, io::encoded_depth_png(path.string(), depth));
+  };
+  add_image(extra / "overview_background.png", pose.overview.background.rgb);
+  add_depth(extra / "overview_background_depth.png", pose.overview.background.depth);
+  add_image(extra / "overview.png", pose.overview.current.rgb);
+  add_depth(extra / "overview_depth.png", pose.overview.current.depth);
   Json names = Json::array();
   for (std::size_t i = 0; i < pose.views.size(); ++i) {
     const CapturedView& view = pose.views[i];
     const view::CameraPose& from = pose.posed.views[i];
     const std::string name =
         std::to_string(std::lround(from.phi_deg)) + "_" + std::to_string(std::lround(from.theta_deg));
-    io::write_png(folder / (name + ".png"), view.image.rgb);
-    io::write_depth_png(extra / (name + "_depth.png"), view.image.depth);
-    io::write_grey_png(extra / (name + "_mask.png"), view.shot.height, view.shot.width, view.shot.mask);
+    add_image(place / (name + ".png"), view.image.rgb);
+    add_depth(extra / (name + "_depth.png"), view.image.depth);
+    const fs::path mask = extra / (name + "_mask.png");
+    folder.add(mask, io::encoded_grey_png(mask.string(), view.shot.height, view.shot.width, view.shot.mask));
     names.push_back(name);
   }
   const localise::LocalisedObject& object = pose.object;
@@ -93,7 +101,7 @@ class RenderJob {
 
   RenderSummary run() {
     io::FreshFolder folder(options_.output);
-    render_poses(folder.path());
+    render_poses(folder);
     const Index left_out =
         std::count_if(entries_.begin(), entries_.end(), [](const Entry& e) { return !e.problem.empty(); });
     if (left_out == pose_count()) fail_empty();
@@ -144,19 +152,22 @@ class RenderJob {
     }
   }
 
-  void render_poses(const fs::path& folder) {
+  void render_poses(io::FreshFolder& folder) {
     Progress progress(messages_, "poses", pose_count());
-    // Each thread renders a few poses between two reports. Each pose has its own random numbers.
-    const Index block = 4 * Parallel::shared().threads();
-    for (Index first = 0; first < pose_count(); first += block) {
-      const Index count = std::min(block, pose_count() - first);
+    // Each thread renders a few poses between two reports, and more once it is known that they take less than seconds:
+    // threads that are done with a block wait for the others. Each pose has its own random numbers.
+    constexpr double kReport_s = 10;
+    const Index least = 4 * Parallel::shared().threads();
+    for (Index first = 0, count = 0; first < pose_count(); first += count) {
+      const double pace = static_cast<double>(first) / std::max(progress.seconds(), 1e-3);
+      count = std::min(std::max(least, static_cast<Index>(kReport_s * pace)), pose_count() - first);
       Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) { render_pose(first + i, folder); });
       for (Index number = first; number < first + count; ++number) report_pose(number);
       progress.update(first + count);
     }
   }
 
-  void render_pose(Index number, const fs::path& folder) {
+  void render_pose(Index number, io::FreshFolder& folder) {
     constexpr Index kSheetImages = 15;  // of each category, so that the sheet fits a screen's width
     const Index pose = number % options_.poses;
     const ObjectSource& source = sources_[source_of(number)];
@@ -171,8 +182,7 @@ class RenderJob {
     in_work.count_pose(options_.poses);
     entry.problem = collection.problem;
     if (!collection.pose) return;
-    entry.manifest =
-        write_pose(*collection.pose, collection.attempts, options_.size, folder / place, folder / "_extra" / place);
+    entry.manifest = write_pose(*collection.pose, collection.attempts, options_.size, folder, place);
     if (place_in_category_[source_of(number)] * options_.poses + pose < kSheetImages)
       entry.image = resized_to_fit(fullest_view(*collection.pose), kSheet.cell);
   }

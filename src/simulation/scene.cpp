@@ -1,5 +1,8 @@
 // Direct light of round lamps with soft shadows, one bounce of the room's light (sky, walls, table), highlights and
 // mirrored surroundings. Shadows of lamps and room are sampled with one ray each per sample.
+//
+// Rays of up to 256 pixels go through each step together: light_kernels.h has the arithmetic, caster.h the triangles.
+// A sample of all pixels of such a batch is a pass; rays through clear surfaces go on in smaller batches.
 #include "simulation/scene.h"
 
 #include <algorithm>
@@ -7,77 +10,71 @@
 #include <limits>
 #include <numbers>
 
-#include <embree3/rtcore.h>
-
 #include "base/error.h"
 #include "base/random.h"
-#include "simulation/texture.h"
+#include "simulation/render/caster.h"
+#include "simulation/render/light_kernels.h"
+#include "simulation/render/object_surfaces.h"
+#include "simulation/render/texture_kernels.h"
 
 namespace svnet::simulation {
 namespace {
 
 constexpr float kFar = std::numeric_limits<float>::infinity();
+constexpr float kRoom_m = 0.4f;           // how far a ray into the room must be free
+constexpr float kNext_m = 1e-4f;          // behind a clear surface
+constexpr std::uint32_t kMostClear = 12;  // surfaces that a ray passes
 
-/// Embree's device: one for the process, which builds on the calling thread alone, so that a tree does not depend on
-/// how threads were scheduled.
-RTCDevice device() {
-  static const RTCDevice kDevice = [] {
-    const RTCDevice created = rtcNewDevice("threads=1,user_threads=0");
-    check(created != nullptr, "[render] Embree cannot be used: error ", static_cast<int>(rtcGetDeviceError(nullptr)));
-    return created;
-  }();
-  return kDevice;
-}
-
-struct Hit {
-  float distance = kFar;
-  std::uint32_t triangle = RTC_INVALID_GEOMETRY_ID;
-  float u = 0, v = 0;
-  bool object() const { return triangle != RTC_INVALID_GEOMETRY_ID; }
+/// The pixels of an image that are worked on together.
+struct Pixels {
+  std::size_t count = 0;
+  Row<std::uint32_t> number, x, y;
+  Row<std::uint32_t> words[4];  // random: where the samples lie, and which part of the lamps and the room each gets
+  Rows3 radiance;
+  Row<std::uint8_t> plain;  // 1: only the table was seen, without a shadow
 };
 
-/// Two axes that complete a unit vector to a basis (Duff et al., "Building an orthonormal basis, revisited", 2017).
-std::pair<Vec3, Vec3> tangents(const Vec3& n) {
-  const float sign = std::copysign(1.0f, n.z()), a = -1 / (sign + n.z()), b = n.x() * n.y() * a;
-  return {Vec3(1 + sign * n.x() * n.x() * a, sign * b, -sign * n.x()), Vec3(b, sign + n.y() * n.y() * a, -n.y())};
-}
-
-/// Four uniform numbers in [0, 1).
-std::array<float, 4> uniforms(const ImageKey& key, std::uint32_t pixel, std::uint32_t step) {
-  const auto words = random_words(key.seed, Stream::collection, std::uint64_t{key.number} << 32 | pixel, step);
-  std::array<float, 4> result{};
-  for (std::size_t i = 0; i < 4; ++i) result[i] = static_cast<float>(words[i] >> 8) * 0x1p-24f;
-  return result;
-}
-
-/// The random numbers that the samples of a pixel share: where in the pixel they lie, and which part of the lamps and
-/// the room each gets.
-struct PixelNumbers {
-  std::array<std::uint32_t, 4> words;
-
-  PixelNumbers(const ImageKey& key, std::uint32_t pixel)
-      : words(random_words(key.seed, Stream::collection, std::uint64_t{key.number} << 32 | pixel, 2)) {}
-
-  /// The first sample lies in the pixel's centre, the others at random places of its quarters.
-  std::pair<float, float> place(std::uint32_t sample) const {
-    if (sample == 0) return {0.0f, 0.0f};
-    const std::uint32_t word = words[sample % 4];
-    const auto part = [](std::uint32_t bits) { return static_cast<float>(bits & 0xffffu) * 0x1p-17f; };
-    return {((sample & 1) != 0 ? 0.0f : -0.5f) + part(word), ((sample & 2) != 0 ? 0.0f : -0.5f) + part(word >> 16)};
-  }
+/// Rays that are followed together.
+struct Batch {
+  std::size_t count = 0;
+  Row<std::uint16_t> slot;          // of the ray's light
+  Row<std::uint32_t> pixel, shift;  // shift: for stratify
+  Rows3 origin, direction, share;   // share: of the light that passed clear surfaces
+  Row<float> near;
+  Caster::Hits hits;
 };
 
-/// Four numbers in [0, 1), each in another of `samples` equal parts for each sample of a pixel (a Latin hypercube, with
-/// strides that are coprime to powers of two), which takes most of the noise out of shadows.
-std::array<float, 4> stratified(const ImageKey& key, const PixelNumbers& shared, std::uint32_t pixel,
-                                std::uint32_t sample, std::uint32_t samples, std::uint32_t surfaces) {
-  std::array<float, 4> result = uniforms(key, pixel, 3 + sample + 64 * surfaces);
-  constexpr std::array<std::uint32_t, 4> kStride{1, 3, 1, 3};
-  for (std::size_t i = 0; i < 4; ++i) {
-    const std::uint32_t part = (sample * kStride[i] + (shared.words[0] >> (8 * i))) % samples;
-    result[i] = (static_cast<float>(part) + result[i]) / static_cast<float>(samples);
+/// Room for one thread's work on an image.
+struct Work {
+  Pixels pixels;
+  Batch batch, next;
+  CameraRays camera;
+  Row<std::uint32_t> x, y, place, words[4];
+  Row<float> numbers[4], meets, room_m;
+  Surfaces surfaces;
+  ObjectSurfaces object;
+  Angles angles;
+  LightRays light_rays;
+  Shading shading;
+  Rows3 light;
+  Row<std::uint8_t> plain;
+
+  Work() { std::fill_n(room_m.at, kRays, kRoom_m); }
+};
+
+void draw_words(const ImageKey& key, std::uint32_t step, std::size_t count, const Row<std::uint32_t>& pixel,
+                Row<std::uint32_t> (&words)[4]) {
+  random_words_of_each(key.seed, Stream::collection, key.number, pixel.at, count, step,
+                       {words[0].at, words[1].at, words[2].at, words[3].at});
+}
+
+void take_angles(std::size_t count, const Row<float> (&numbers)[4], Angles& angles) {
+  constexpr float kTurn = 2 * std::numbers::pi_v<float>;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float lamp = kTurn * numbers[1][i], room = kTurn * numbers[3][i];
+    angles.lamp_sine[i] = std::sin(lamp), angles.lamp_cosine[i] = std::cos(lamp);
+    angles.room_sine[i] = std::sin(room), angles.room_cosine[i] = std::cos(room);
   }
-  return result;
 }
 
 }  // namespace
@@ -85,196 +82,156 @@ std::array<float, 4> stratified(const ImageKey& key, const PixelNumbers& shared,
 struct Scene::Tracer {
   const Mesh* mesh;
   Setting setting;
-  Eigen::Affine3f to_local;
-  Eigen::Matrix3f to_world_rotation;
+  std::vector<LampPlace> lamps;
+  ObjectPlace place;
   Eigen::AlignedBox3f bounds;
   Vec3 table_mean;
   bool any_clear = false;
-  RTCScene scene = nullptr;
+  std::unique_ptr<Caster> caster;  // null: the table is empty
 
-  ~Tracer() {
-    if (scene != nullptr) rtcReleaseScene(scene);
+  /// The nearest surfaces: the object, or the table.
+  void trace(Batch& batch, Row<float>& meets) const {
+    find_table(batch.count, batch.origin, batch.direction, batch.near, batch.hits.distance);
+    std::fill_n(batch.hits.triangle.at, batch.count, Caster::kNone);
+    if (caster == nullptr) return;
+    test_box(batch.count, bounds, batch.origin, batch.direction, batch.hits.distance, meets);
+    Picked picked;
+    for (std::size_t i = 0; i < batch.count; ++i)
+      if (meets[i] != 0) picked.add(i);
+    caster->nearest(picked, batch.origin, batch.direction, batch.near, batch.hits);
   }
 
-  bool may_hit(const Vec3& origin, const Vec3& inverse, float far) const {
-    const Vec3 a = (bounds.min() - origin).cwiseProduct(inverse), b = (bounds.max() - origin).cwiseProduct(inverse);
-    const float enter = a.cwiseMin(b).maxCoeff(), leave = a.cwiseMax(b).minCoeff();
-    return leave >= std::max(enter, 0.0f) && enter <= far;
-  }
-
-  static RTCRay ray_of(const Vec3& origin, const Vec3& direction, float near, float far) {
-    RTCRay ray{};
-    ray.org_x = origin.x(), ray.org_y = origin.y(), ray.org_z = origin.z();
-    ray.dir_x = direction.x(), ray.dir_y = direction.y(), ray.dir_z = direction.z();
-    ray.tnear = near;
-    ray.tfar = far;
-    ray.mask = ~0u;
-    return ray;
-  }
-
-  /// The nearest surface of the object, or the table.
-  Hit trace(const Vec3& origin, const Vec3& direction, float near) const {
-    Hit hit;
-    if (direction.z() < 0) hit.distance = -origin.z() / direction.z();
-    if (hit.distance <= near) hit.distance = kFar;
-    if (scene == nullptr || !may_hit(origin, direction.cwiseInverse(), hit.distance)) return hit;
-    RTCRayHit query{};
-    query.ray = ray_of(origin, direction, near, hit.distance);
-    query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(scene, &context, &query);
-    if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return hit;
-    return {query.ray.tfar, query.hit.primID, query.hit.u, query.hit.v};
-  }
-
-  /// The share of light that arrives along a ray of length `far`.
-  float passage(Vec3 origin, const Vec3& direction, float near, float far) const {
-    if (scene == nullptr || !may_hit(origin, direction.cwiseInverse(), far)) return 1;
-    if (!any_clear) {
-      RTCRay ray = ray_of(origin, direction, near, far);
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      rtcOccluded1(scene, &context, &ray);
-      return ray.tfar < 0 ? 0.0f : 1.0f;
+  /// Lets through the share of light that the object does: `open` is 1 where it has to be looked at.
+  void let_through(std::size_t count, const Rows3& start, const Rows3& direction, const Row<float>& far,
+                   Row<float>& meets, Row<float>& open) const {
+    if (caster == nullptr) return;
+    test_box(count, bounds, start, direction, far, meets);
+    Picked picked;
+    for (std::size_t i = 0; i < count; ++i)
+      if (open[i] != 0 && meets[i] != 0) picked.add(i);
+    if (!any_clear) return caster->close_hidden(picked, start, direction, far, open);
+    for (std::size_t k = 0; k < picked.count; ++k) {
+      const std::size_t i = picked.at[k];
+      open[i] = caster->passage(start.get(i), direction.get(i), far[i]);
     }
-    float share = 1;
-    for (int surfaces = 0; surfaces < 16 && share > 0; ++surfaces) {
-      RTCRayHit query{};
-      query.ray = ray_of(origin, direction, near, far);
-      query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-      RTCIntersectContext context;
-      rtcInitIntersectContext(&context);
-      rtcIntersect1(scene, &context, &query);
-      if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) break;
-      const auto material = static_cast<std::size_t>(mesh->triangles[query.hit.primID].material);
-      share *= mesh->materials[material].clear;
-      near = query.ray.tfar + 1e-4f;
-    }
-    return share;
   }
 
   /// The room's light from a direction: the sky, the darker walls, the table below, and the lamps as bright spots that
   /// a rough surface smears.
   Vec3 surroundings(const Vec3& direction, float sharpness) const {
     if (direction.z() < 0) return table_mean;
+    Vec3 light = setting.wall + (setting.sky - setting.wall) * std::min(1.0f, 1.4f * direction.z());
     // Windows: bright panels on the walls, which give metal and glass something to mirror.
-    const float azimuth = std::atan2(direction.y(), direction.x());
-    const float panel = std::clamp(4 * (std::cos(3 * azimuth) - 0.6f), 0.0f, 1.0f) *
-                        std::clamp(6 * (0.65f - std::abs(direction.z() - 0.4f) * 3), 0.0f, 1.0f);
-    Vec3 light = setting.wall + (setting.sky - setting.wall) * std::min(1.0f, 1.4f * direction.z()) +
-                 setting.sky * (0.7f * panel);
-    for (const Lamp& lamp : setting.lamps) {
-      const float aligned = direction.dot(lamp.place_m.normalized());
+    const float height = std::clamp(6 * (0.65f - std::abs(direction.z() - 0.4f) * 3), 0.0f, 1.0f);
+    if (height > 0) {
+      const float azimuth = std::atan2(direction.y(), direction.x());
+      const float panel = std::clamp(4 * (std::cos(3 * azimuth) - 0.6f), 0.0f, 1.0f) * height;
+      light += setting.sky * (0.7f * panel);
+    }
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      const float aligned = direction.dot(lamps[i].towards);
       if (aligned > 0)
-        light +=
-            lamp.irradiance * (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * std::numbers::pi_v<float>)*0.35f);
+        light += lamps[i].irradiance *
+                 (std::pow(aligned, sharpness) * (sharpness + 2) / (2 * std::numbers::pi_v<float>)*0.35f);
     }
     return light;
   }
 
-  struct Surface {
-    Vec3 point, normal, geometric, colour;
-    const Material* material;
-    bool metal;
-  };
-
-  Surface surface(const Hit& hit, const Vec3& origin, const Vec3& direction) const {
-    Surface s;
-    s.point = origin + hit.distance * direction;
-    if (!hit.object()) {
-      s.point.z() = 0;
-      s.normal = s.geometric = Vec3::UnitZ();
-      s.material = &setting.table;
-      s.metal = setting.table.metal;
-      s.colour = surface_colour(setting.table, s.point, Vec2::Zero(), {});
-      return s;
+  /// Light that leaves a surface towards where the ray came from, with what it mirrors.
+  Vec3 mirrored(const Material& material, bool is_metal, std::size_t i, const Vec3& direction, const Work& work) const {
+    const Vec3 normal = work.surfaces.normal.get(i), colour = work.surfaces.colour.get(i);
+    const float edge = work.shading.edge[i], seen = work.shading.seen[i];
+    const Vec3 mirror = direction + 2 * work.shading.cosine[i] * normal;
+    if (is_metal) {
+      const Vec3 tint = colour + (Vec3::Ones() - colour) * edge;
+      return tint.cwiseProduct(0.75f * surroundings(mirror, material.sharpness) * seen +
+                               0.35f * work.shading.arriving.get(i));
     }
-    const Mesh::Triangle& triangle = mesh->triangles[hit.triangle];
-    const auto& [na, nb, nc] = mesh->normals[hit.triangle];
-    const Vec3 a = mesh->points[triangle.corner[0]], b = mesh->points[triangle.corner[1]],
-               c = mesh->points[triangle.corner[2]];
-    const float w = 1 - hit.u - hit.v;
-    s.normal = (to_world_rotation * (w * na + hit.u * nb + hit.v * nc)).normalized();
-    s.geometric = (to_world_rotation * (b - a).cross(c - a)).normalized();
-    if (s.geometric.dot(direction) > 0) s.geometric = -s.geometric;
-    if (s.normal.dot(s.geometric) < 0) s.normal = -s.normal;
-    s.material = &mesh->materials[static_cast<std::size_t>(triangle.material)];
-    const auto between = [&](const auto& corner) {
-      return (w * corner[0] + hit.u * corner[1] + hit.v * corner[2]).eval();
-    };
-    const Vec2 uv = mesh->uv.empty() ? Vec2(0, 0) : between(mesh->uv[hit.triangle]);
-    s.colour = surface_colour(*s.material, to_local * s.point, uv, mesh->images);
-    if (!mesh->tints.empty()) s.colour = s.colour.cwiseProduct(between(mesh->tints[hit.triangle]));
-    s.metal = mesh->metal_uv.empty() ? s.material->metal
-                                     : is_metal(*s.material, between(mesh->metal_uv[hit.triangle]), mesh->images);
-    return s;
-  }
-
-  /// Light that leaves the surface towards where the ray came from.
-  /// `r`: where on the lamp, and where in the room. `shadowed` is set where either is hidden.
-  Vec3 shade(const Surface& s, const Vec3& direction, const std::array<float, 4>& r, std::uint32_t sample,
-             bool& shadowed) const {
-    const Material& material = *s.material;
-    const Vec3 start = s.point + 2e-4f * s.geometric;
-    Vec3 arriving = Vec3::Zero();
-    // One of the lamps, in turn, at a random point of its disc.
-    const std::size_t lamps = setting.lamps.size();
-    const Lamp& lamp = setting.lamps[sample % lamps];
-    const auto [lx, ly] = tangents(lamp.place_m.normalized());
-    const float lamp_radius = lamp.radius_m * std::sqrt(r[0]), lamp_angle = 2 * std::numbers::pi_v<float> * r[1];
-    const Vec3 to_lamp = lamp.place_m + lamp_radius * (std::cos(lamp_angle) * lx + std::sin(lamp_angle) * ly) - s.point;
-    const float distance = to_lamp.norm();
-    const Vec3 towards = to_lamp / distance;
-    const float facing = s.normal.dot(towards);
-    float lit = 0;
-    if (facing > 0 && s.geometric.dot(towards) > 0) {
-      lit = passage(start, towards, 0, distance);
-      const float nearer = lamp.place_m.squaredNorm() / (distance * distance);
-      arriving += lamp.irradiance * (facing * lit * nearer * static_cast<float>(lamps));
-    }
-    // The room, from a direction drawn with the cosine.
-    const auto [tx, ty] = tangents(s.normal);
-    const float around = 2 * std::numbers::pi_v<float> * r[3], out = std::sqrt(r[2]);
-    const Vec3 room = out * std::cos(around) * tx + out * std::sin(around) * ty + std::sqrt(1 - r[2]) * s.normal;
-    const float open = s.geometric.dot(room) > 0 ? passage(start, room, 0, 0.4f) : 0.0f;
-    const Vec3 from_room =
-        room.z() >= 0 ? Vec3(setting.wall + (setting.sky - setting.wall) * room.z()) : Vec3(0.6f * table_mean);
-    arriving += from_room * (0.25f + 0.75f * open);
-
-    const float cosine = std::max(0.0f, -s.normal.dot(direction));
-    const float rest = 1 - cosine, edge = rest * rest * rest * rest * rest;
-    shadowed |= lit < 1 || open < 1;
-    const Vec3 mirrored = direction + 2 * cosine * s.normal;
-    const float seen = 0.35f + 0.65f * open;
-    if (s.metal) {
-      const Vec3 tint = s.colour + (Vec3::Ones() - s.colour) * edge;
-      return tint.cwiseProduct(0.75f * surroundings(mirrored, material.sharpness) * seen + 0.35f * arriving);
-    }
+    Vec3 light = work.shading.scattered.get(i);
     const float reflected =
         material.gloss > 0 ? material.gloss + (1 - material.gloss) * edge * std::min(1.0f, material.sharpness / 60) : 0;
-    Vec3 light = s.colour.cwiseProduct(arriving) * (1 - material.clear);
-    if (reflected > 0 && (s.material != &setting.table))
-      light += reflected * seen * surroundings(mirrored, material.sharpness);
+    if (reflected > 0) light += reflected * seen * surroundings(mirror, material.sharpness);
     return light;
   }
 
-  /// Light along a ray, through clear surfaces. `plain` is set where it comes from the table alone, without a shadow.
-  Vec3 radiance(const Vec3& origin, const Vec3& direction, Hit hit, const ImageKey& key, const PixelNumbers& shared,
-                std::uint32_t pixel, std::uint32_t sample, std::uint32_t samples, bool& plain) const {
-    Vec3 light = Vec3::Zero(), share = Vec3::Ones();
-    plain = !hit.object();
-    for (std::uint32_t surfaces = 0;; ++surfaces) {
-      if (hit.distance == kFar) return light + share.cwiseProduct(setting.wall);
-      const Surface s = surface(hit, origin, direction);
-      bool shadowed = false;
-      light += share.cwiseProduct(
-          shade(s, direction, stratified(key, shared, pixel, sample, samples, surfaces), sample, shadowed));
-      plain &= !shadowed;
-      if (!hit.object() || s.material->clear <= 0 || surfaces == 12) return light;
-      share = share.cwiseProduct(s.colour.cwiseSqrt()) * s.material->clear;
-      hit = trace(origin, direction, hit.distance + 1e-4f);
+  /// Fills work.surfaces and work.object for the hits of a batch.
+  void find_surfaces(const Batch& batch, Work& work) const {
+    place_on_table(batch.count, batch.origin, batch.direction, batch.hits.distance, work.surfaces);
+    paint(setting.table, batch.count, work.surfaces.point, work.surfaces.colour);
+    std::fill_n(work.surfaces.clear.at, batch.count, setting.table.clear);
+    work.object.picked.count = 0;
+    if (caster == nullptr) return;
+    for (std::size_t i = 0; i < batch.count; ++i)
+      if (batch.hits.triangle[i] != Caster::kNone) work.object.picked.add(i);
+    add_object_surfaces(*mesh, place, batch.origin, batch.direction, batch.hits, work.object, work.surfaces);
+  }
+
+  /// work.light, work.plain: the light along the rays of work.batch, through clear surfaces, and whether it comes from
+  /// the table alone, without a shadow.
+  void follow(Work& work, const ImageKey& key, std::uint32_t sample, std::uint32_t samples) const {
+    Batch* batch = &work.batch;
+    Batch* next = &work.next;
+    const LampPlace& lamp = lamps[sample % lamps.size()];
+    for (std::size_t i = 0; i < batch->count; ++i) {
+      work.light.set(i, Vec3::Zero());
+      work.plain[i] = batch->hits.triangle[i] == Caster::kNone;
     }
+    for (std::uint32_t surfaces = 0; batch->count > 0; ++surfaces, std::swap(batch, next)) {
+      const std::size_t count = batch->count;
+      find_surfaces(*batch, work);
+      draw_words(key, 3 + sample + 64 * surfaces, count, batch->pixel, work.words);
+      stratify(count, sample, samples, batch->shift, work.words, work.numbers);
+      take_angles(count, work.numbers, work.angles);
+      make_light_rays(count, work.surfaces, lamp, work.numbers, work.angles, work.light_rays);
+      LightRays& rays = work.light_rays;
+      let_through(count, rays.start, rays.to_lamp, rays.lamp_distance, work.meets, rays.lit);
+      let_through(count, rays.start, rays.to_room, work.room_m, work.meets, rays.open);
+      shade(count, work.surfaces, batch->direction, rays, lamp, setting, table_mean, work.shading);
+      add_mirrored(*batch, work);
+      gather_light(*batch, work);
+      next->count = 0;
+      if (any_clear && surfaces < kMostClear) go_on(*batch, work, *next);
+    }
+  }
+
+  /// Adds to work.shading.scattered what glossy and metal surfaces mirror.
+  void add_mirrored(const Batch& batch, Work& work) const {
+    const auto add = [&](const Material& material, bool is_metal, std::size_t i) {
+      work.shading.scattered.set(i, mirrored(material, is_metal, i, batch.direction.get(i), work));
+    };
+    const ObjectSurfaces& object = work.object;
+    for (std::size_t k = 0; k < object.picked.count; ++k)
+      if (object.metal[k] != 0 || object.material[k]->gloss > 0)
+        add(*object.material[k], object.metal[k] != 0, object.picked.at[k]);
+    if (!setting.table.metal) return;
+    for (std::size_t i = 0; i < batch.count; ++i)
+      if (batch.hits.triangle[i] == Caster::kNone) add(setting.table, true, i);
+  }
+
+  void gather_light(const Batch& batch, Work& work) const {
+    for (std::size_t i = 0; i < batch.count; ++i) {
+      const std::size_t slot = batch.slot[i];
+      const bool is_far = batch.hits.distance[i] == kFar;
+      const Vec3 share = batch.share.get(i);
+      work.light.set(slot,
+                     work.light.get(slot) + share.cwiseProduct(is_far ? setting.wall : work.shading.scattered.get(i)));
+      if (!is_far && work.shading.shadowed[i] != 0) work.plain[slot] = 0;
+    }
+  }
+
+  /// Rays that go on behind clear surfaces, traced.
+  void go_on(const Batch& batch, Work& work, Batch& next) const {
+    for (std::size_t k = 0; k < work.object.picked.count; ++k) {
+      const float clear = work.object.material[k]->clear;
+      if (clear <= 0) continue;
+      const std::size_t i = work.object.picked.at[k], to = next.count++;
+      next.slot[to] = batch.slot[i], next.pixel[to] = batch.pixel[i], next.shift[to] = batch.shift[i];
+      next.origin.set(to, batch.origin.get(i));
+      next.direction.set(to, batch.direction.get(i));
+      next.share.set(to, batch.share.get(i).cwiseProduct(work.surfaces.colour.get(i).cwiseSqrt()) * clear);
+      next.near[to] = batch.hits.distance[i] + kNext_m;
+    }
+    trace(next, work.meets);
   }
 };
 
@@ -283,80 +240,92 @@ Scene::Scene(const Mesh* mesh, const Eigen::Isometry3d& object_to_world, const S
   Tracer& tracer = *tracer_;
   tracer.mesh = mesh;
   tracer.setting = setting;
+  for (const Lamp& lamp : setting.lamps) tracer.lamps.emplace_back(lamp);
   tracer.table_mean = 0.5f * (setting.table.colour + setting.table.second);
   const Eigen::Affine3f placed(object_to_world.cast<float>().matrix());
-  tracer.to_local = placed.inverse();
-  tracer.to_world_rotation = placed.linear();
+  tracer.place = {placed.linear(), placed.inverse().matrix()};
   if (mesh == nullptr) return;
   for (const Material& material : mesh->materials) tracer.any_clear |= material.clear > 0;
-
-  tracer.scene = rtcNewScene(device());
-  rtcSetSceneFlags(tracer.scene, RTC_SCENE_FLAG_ROBUST);
-  rtcSetSceneBuildQuality(tracer.scene, RTC_BUILD_QUALITY_MEDIUM);
-  const RTCGeometry geometry = rtcNewGeometry(device(), RTC_GEOMETRY_TYPE_TRIANGLE);
-  auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                             3 * sizeof(float), mesh->points.size()));
-  auto* corners = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(std::uint32_t), mesh->triangles.size()));
-  check(points != nullptr && corners != nullptr, "[render] Embree has no memory for ", mesh->triangles.size(),
-        " triangles");
-  for (std::size_t i = 0; i < mesh->points.size(); ++i) {
-    const Vec3 point = placed * mesh->points[i];
-    tracer.bounds.extend(point);
-    std::copy(point.data(), point.data() + 3, points + 3 * i);
+  std::vector<Vec3> points;
+  points.reserve(mesh->points.size());
+  for (const Vec3& local : mesh->points) {
+    points.emplace_back(placed * local);
+    tracer.bounds.extend(points.back());
   }
-  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
-    std::copy(mesh->triangles[i].corner.begin(), mesh->triangles[i].corner.end(), corners + 3 * i);
   tracer.bounds.min().array() -= 1e-5f;
   tracer.bounds.max().array() += 1e-5f;
-  rtcCommitGeometry(geometry);
-  rtcAttachGeometry(tracer.scene, geometry);
-  rtcReleaseGeometry(geometry);
-  rtcCommitScene(tracer.scene);
-  const RTCError error = rtcGetDeviceError(device());
-  check(error == RTC_ERROR_NONE, "[render] Embree cannot build the scene of ", mesh->triangles.size(),
-        " triangles: error ", static_cast<int>(error));
+  tracer.caster = std::make_unique<Caster>(*mesh, points);
 }
 
 Scene::~Scene() = default;
 
+Caster* Scene::caster() { return tracer_->caster.get(); }
+
 Shot Scene::shoot(const view::Intrinsics& camera, const Eigen::Isometry3d& camera_to_world, const ImageKey& key,
-                  int samples) const {
+                  int sample_count) const {
+  check(sample_count == 1 || sample_count == 2 || sample_count == 4, "[render] ", sample_count,
+        " samples per pixel; expected 1, 2 or 4");
+  const auto samples = static_cast<std::uint32_t>(sample_count);
+  constexpr std::uint32_t kPlainSamples = 2;  // are enough where only the bare table is seen
   Shot shot;
   shot.height = camera.height;
   shot.width = camera.width;
   const auto count = static_cast<std::size_t>(camera.height * camera.width);
-  shot.radiance.assign(count, Vec3::Zero());
+  shot.radiance.resize(count);
   shot.depth = {camera.height, camera.width, std::vector<float>(count)};
-  shot.mask.assign(count, 0);
-  constexpr int kPlainSamples = 2;  // are enough where only the bare table is seen
+  shot.mask.resize(count);
   const Vec3 origin = camera_to_world.translation().cast<float>();
   const Eigen::Matrix3f rotation = camera_to_world.linear().cast<float>();
-  for (Index y = 0; y < camera.height; ++y)
-    for (Index x = 0; x < camera.width; ++x) {
-      const auto pixel = static_cast<std::uint32_t>(y * camera.width + x);
-      const PixelNumbers shared(key, pixel);
-      int taken = 0;
-      for (bool plain = true; taken < samples && !(plain && taken >= kPlainSamples); ++taken) {
-        const auto sample = static_cast<std::uint32_t>(taken);
-        const auto [dx, dy] = shared.place(sample);
-        const Vec3 seen(static_cast<float>((static_cast<double>(x) + static_cast<double>(dx) - camera.cx) / camera.fx),
-                        static_cast<float>((static_cast<double>(y) + static_cast<double>(dy) - camera.cy) / camera.fy),
-                        1);
-        const float length = seen.norm();
-        const Vec3 direction = rotation * (seen / length);
-        const Hit hit = tracer_->trace(origin, direction, 0);
-        if (taken == 0) {
-          shot.depth.metres[pixel] = hit.distance == kFar ? 0 : hit.distance / length;
-          shot.mask[pixel] = hit.object() ? 255 : 0;
-        }
-        bool sample_plain = true;
-        shot.radiance[pixel] += tracer_->radiance(origin, direction, hit, key, shared, pixel, sample,
-                                                  static_cast<std::uint32_t>(samples), sample_plain);
-        plain &= sample_plain;
-      }
-      shot.radiance[pixel] /= static_cast<float>(taken);
+  const auto work = std::make_unique<Work>();
+  Pixels& pixels = work->pixels;
+  Batch& batch = work->batch;
+
+  const auto shoot_sample = [&](std::uint32_t sample) {
+    batch.count = 0;
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      if (sample >= kPlainSamples && pixels.plain[i] != 0) continue;
+      const std::size_t to = batch.count++;
+      batch.slot[to] = static_cast<std::uint16_t>(to);
+      work->place[to] = pixels.words[sample % 4][i];
+      work->x[to] = pixels.x[i], work->y[to] = pixels.y[i];
+      batch.pixel[to] = pixels.number[i], batch.shift[to] = pixels.words[0][i];
+      batch.near[to] = 0;
+      batch.origin.set(to, origin);
+      batch.share.set(to, Vec3::Ones());
     }
+    make_camera_rays(camera, rotation, batch.count, work->x, work->y, sample, work->place, work->camera);
+    batch.direction = work->camera.direction;
+    tracer_->trace(batch, work->meets);
+    if (sample == 0)
+      for (std::size_t i = 0; i < batch.count; ++i) {
+        const float distance = batch.hits.distance[i];
+        shot.depth.metres[batch.pixel[i]] = distance == kFar ? 0 : distance / work->camera.length[i];
+        shot.mask[batch.pixel[i]] = batch.hits.triangle[i] != Caster::kNone ? 255 : 0;
+      }
+    tracer_->follow(*work, key, sample, samples);
+    for (std::size_t i = 0, from = 0; i < pixels.count; ++i) {
+      if (sample >= kPlainSamples && pixels.plain[i] != 0) continue;
+      pixels.radiance.set(i, pixels.radiance.get(i) + work->light.get(from));
+      pixels.plain[i] &= work->plain[from++];
+    }
+  };
+
+  for (std::size_t first = 0; first < count; first += kRays) {
+    pixels.count = std::min(kRays, count - first);
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      pixels.number[i] = static_cast<std::uint32_t>(first + i);
+      pixels.y[i] = pixels.number[i] / static_cast<std::uint32_t>(camera.width);
+      pixels.x[i] = pixels.number[i] - pixels.y[i] * static_cast<std::uint32_t>(camera.width);
+      pixels.radiance.set(i, Vec3::Zero());
+      pixels.plain[i] = 1;
+    }
+    draw_words(key, 2, pixels.count, pixels.number, pixels.words);
+    for (std::uint32_t sample = 0; sample < samples; ++sample) shoot_sample(sample);
+    for (std::size_t i = 0; i < pixels.count; ++i) {
+      const std::uint32_t taken = pixels.plain[i] != 0 ? std::min(samples, kPlainSamples) : samples;
+      shot.radiance[first + i] = pixels.radiance.get(i) / static_cast<float>(taken);
+    }
+  }
   return shot;
 }
 

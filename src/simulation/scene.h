@@ -5,6 +5,7 @@
 #include "image/depth_image.h"
 #include "image/image.h"
 #include "simulation/mesh.h"
+#include "simulation/render/caster.h"
 #include "simulation/setting.h"
 #include "view/camera.h"
 
@@ -34,8 +35,11 @@ class Scene {
   Scene& operator=(const Scene&) = delete;
 
   /// `camera_to_world` is the pose of the optical frame. Requires a camera above the table. Traces `samples` rays per
-  /// pixel, the first one through its centre.
+  /// pixel (1, 2 or 4), the first one through its centre. Throws Error for another number.
   Shot shoot(const view::Intrinsics&, const Eigen::Isometry3d& camera_to_world, const ImageKey&, int samples) const;
+
+  /// For benchmarks, on one thread: the caster of the object, null if the table is empty.
+  Caster* caster();
 
  private:
   struct Tracer;

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <memory>
 
 #include "base/random.h"
+#include "simulation/render/sensor_kernels.h"
 #include "simulation/texture.h"
 
 namespace svnet::simulation {
@@ -14,67 +15,101 @@ namespace {
 std::vector<Vec3> blurred(const std::vector<Vec3>& from, Index height, Index width) {
   constexpr float kSide = 0.1065f, kMiddle = 1 - 2 * kSide;
   std::vector<Vec3> rows(from.size()), result(from.size());
-  const auto at = [&](Index y, Index x) { return static_cast<std::size_t>(y * width + x); };
+  // A row as numbers, three for each pixel.
+  const Index row = 3 * width;
+  const auto mix = [&](const float* middle, const float* before, const float* after, Index count, float* out) {
+    for (Index i = 0; i < count; ++i) out[i] = kMiddle * middle[i] + kSide * (before[i] + after[i]);
+  };
+  for (Index y = 0; y < height; ++y) {
+    const float* in = from[static_cast<std::size_t>(y * width)].data();
+    float* out = rows[static_cast<std::size_t>(y * width)].data();
+    const Index second = std::min<Index>(3, row - 3), last = row - 3;
+    mix(in, in, in + second, 3, out);
+    if (width > 2) mix(in + 3, in, in + 6, row - 6, out + 3);
+    if (width > 1) mix(in + last, in + last - 3, in + last, 3, out + last);
+  }
+  const auto row_at = [&](Index y) {
+    return rows[static_cast<std::size_t>(std::clamp<Index>(y, 0, height - 1) * width)].data();
+  };
   for (Index y = 0; y < height; ++y)
-    for (Index x = 0; x < width; ++x)
-      rows[at(y, x)] = kMiddle * from[at(y, x)] +
-                       kSide * (from[at(y, std::max<Index>(x - 1, 0))] + from[at(y, std::min(x + 1, width - 1))]);
-  for (Index y = 0; y < height; ++y)
-    for (Index x = 0; x < width; ++x)
-      result[at(y, x)] = kMiddle * rows[at(y, x)] +
-                         kSide * (rows[at(std::max<Index>(y - 1, 0), x)] + rows[at(std::min(y + 1, height - 1), x)]);
+    mix(row_at(y), row_at(y - 1), row_at(y + 1), row, result[static_cast<std::size_t>(y * width)].data());
   return result;
 }
 
-/// Four standard normal numbers (Box and Muller 1958).
-std::array<float, 4> normals(const std::array<std::uint32_t, 4>& words) {
-  std::array<float, 4> result{};
-  for (std::size_t pair = 0; pair < 4; pair += 2) {
-    const float u = (static_cast<float>(words[pair] >> 8) + 1) * 0x1p-24f;
-    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(words[pair + 1] >> 8) * 0x1p-24f;
-    const float radius = std::sqrt(-2 * std::log(u));
-    result[pair] = radius * std::cos(angle);
-    result[pair + 1] = radius * std::sin(angle);
+/// 1 for pixels whose depth is more than 1 cm from that of the one at the left, at the right, above or below.
+std::vector<std::uint8_t> silhouettes(const DepthImage& depth) {
+  std::vector<std::uint8_t> result(depth.metres.size(), 0);
+  const auto mark = [](const float* a, const float* b, Index count, std::uint8_t* out) {
+    for (Index i = 0; i < count; ++i) out[i] |= static_cast<std::uint8_t>(std::abs(b[i] - a[i]) > 0.01f);
+  };
+  const auto mark_both = [&](Index a, Index b, Index count) {
+    mark(&depth.metres[static_cast<std::size_t>(a)], &depth.metres[static_cast<std::size_t>(b)], count,
+         &result[static_cast<std::size_t>(a)]);
+    mark(&depth.metres[static_cast<std::size_t>(a)], &depth.metres[static_cast<std::size_t>(b)], count,
+         &result[static_cast<std::size_t>(b)]);
+  };
+  for (Index y = 0; y < depth.height; ++y) {
+    const Index row = y * depth.width;
+    if (depth.width > 1) mark_both(row, row + 1, depth.width - 1);
+    if (y + 1 < depth.height) mark_both(row, row + depth.width, depth.width);
   }
   return result;
 }
 
-/// Whether the depth jumps by more than 1 cm between a pixel and the one at the left, at the right, above or below.
-bool on_silhouette(const DepthImage& depth, Index y, Index x) {
-  const float here = depth.metres[static_cast<std::size_t>(y * depth.width + x)];
-  for (const auto& [dy, dx] : {std::pair(0, 1), std::pair(0, -1), std::pair(1, 0), std::pair(-1, 0)}) {
-    const Index ny = y + dy, nx = x + dx;
-    if (ny < 0 || nx < 0 || ny >= depth.height || nx >= depth.width) continue;
-    if (std::abs(depth.metres[static_cast<std::size_t>(ny * depth.width + nx)] - here) > 0.01f) return true;
-  }
-  return false;
+void take_values(std::size_t count, const PolarDraw& draw, PolarValues& values) {
+  for (std::size_t pair = 0; pair < 2; ++pair)
+    for (std::size_t i = 0; i < count; ++i) {
+      values.log[pair][i] = std::log(draw.uniform[pair][i]);
+      const float angle = draw.angle[pair][i];
+      values.sine[pair][i] = std::sin(angle), values.cosine[pair][i] = std::cos(angle);
+    }
 }
+
+/// Room for a batch of pixels.
+struct Sensing {
+  Row<std::uint32_t> pixel, words[4];
+  PolarDraw draw;
+  PolarValues values;
+  Rows3 light;
+  Row<float> z, measured;
+  Row<std::int32_t> levels[3];
+};
 
 }  // namespace
 
 RgbdImage sensor_image(const Shot& shot, const ImageKey& key, float exposure) {
-  constexpr float kDepthNoise = 0.0014f, kHoleShare = 0.6f;
-  constexpr float kShotNoise = 0.0003f, kReadNoise = 0.0016f;  // variance per light, and σ in the dark
-  RgbdImage image{{shot.height, shot.width, std::vector<std::uint8_t>(shot.radiance.size() * 3)},
-                  {shot.height, shot.width, std::vector<float>(shot.radiance.size())}};
+  constexpr float kHoleShare = 0.6f;
+  const std::size_t pixels = shot.radiance.size();
+  RgbdImage image{{shot.height, shot.width, std::vector<std::uint8_t>(pixels * 3)},
+                  {shot.height, shot.width, std::vector<float>(pixels)}};
+  if (pixels == 0) return image;
   const std::vector<Vec3> light = blurred(shot.radiance, shot.height, shot.width);
-  for (Index y = 0; y < shot.height; ++y)
-    for (Index x = 0; x < shot.width; ++x) {
-      const auto pixel = static_cast<std::size_t>(y * shot.width + x);
-      const std::uint64_t index = std::uint64_t{key.number} << 32 | pixel;
-      const auto n = normals(random_words(key.seed, Stream::collection, index, 0));
-      for (std::size_t c = 0; c < 3; ++c) {
-        const float value = exposure * light[pixel][static_cast<Index>(c)];
-        const float sigma = std::sqrt(kShotNoise * std::max(value, 0.0f) + kReadNoise * kReadNoise);
-        image.rgb.rgb[3 * pixel + c] = static_cast<std::uint8_t>(std::lround(srgb_from_linear(value + sigma * n[c])));
-      }
-      const float z = shot.depth.metres[pixel];
-      if (z <= 0) continue;
-      if (on_silhouette(shot.depth, y, x) &&
-          static_cast<float>(random_words(key.seed, Stream::collection, index, 1)[0] >> 8) * 0x1p-24f < kHoleShare)
-        continue;
-      image.depth.metres[pixel] = std::max(0.0f, std::round(1000 * (z + kDepthNoise * z * z * n[3])) / 1000);
+  const std::vector<std::uint8_t> on_silhouette = silhouettes(shot.depth);
+  const auto room = std::make_unique<Sensing>();
+  for (std::size_t first = 0; first < pixels; first += kRays) {
+    const std::size_t count = std::min(kRays, pixels - first);
+    for (std::size_t i = 0; i < count; ++i) {
+      room->pixel[i] = static_cast<std::uint32_t>(first + i);
+      room->light.set(i, light[first + i]);
+      room->z[i] = shot.depth.metres[first + i];
     }
+    random_words_of_each(key.seed, Stream::collection, key.number, room->pixel.at, count, 0,
+                         {room->words[0].at, room->words[1].at, room->words[2].at, room->words[3].at});
+    make_polar(count, room->words, room->draw);
+    take_values(count, room->draw, room->values);
+    develop(count, room->values, room->light, exposure, srgb_table(), room->levels);
+    measure_depth(count, room->values, room->z, room->measured);
+    for (std::size_t i = 0; i < count; ++i) {
+      const std::size_t pixel = first + i;
+      for (std::size_t c = 0; c < 3; ++c) image.rgb.rgb[3 * pixel + c] = static_cast<std::uint8_t>(room->levels[c][i]);
+      if (room->z[i] <= 0) continue;
+      const auto is_hole = [&] {
+        const std::uint64_t index = std::uint64_t{key.number} << 32 | pixel;
+        return static_cast<float>(random_words(key.seed, Stream::collection, index, 1)[0] >> 8) * 0x1p-24f < kHoleShare;
+      };
+      if (on_silhouette[pixel] == 0 || !is_hole()) image.depth.metres[pixel] = room->measured[i];
+    }
+  }
   return image;
 }
 

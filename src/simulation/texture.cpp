@@ -7,6 +7,8 @@
 namespace svnet::simulation {
 namespace {
 
+constexpr int kSrgbSteps = 1024;
+
 /// A hash of lattice points to [0, 1).
 float lattice(std::int32_t x, std::int32_t y, std::int32_t z) {
   std::uint32_t h = static_cast<std::uint32_t>(x) * 0x8da6b343u ^ static_cast<std::uint32_t>(y) * 0xd8163841u ^
@@ -74,20 +76,24 @@ float linear_from_srgb(std::uint8_t level) {
   return kTable[level];
 }
 
-float srgb_from_linear(float value) {
-  // A table over the root, where the curve is nearly straight; within 0.02 levels of it.
-  constexpr int kSteps = 1024;
+std::span<const float> srgb_table() {
+  // Over the root, where the curve is nearly straight; within 0.02 levels of it.
   static const auto kTable = [] {
-    std::array<float, kSteps + 2> table{};
+    std::array<float, kSrgbSteps + 2> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
-      const float root = static_cast<float>(i) / kSteps, c = root * root;
+      const float root = static_cast<float>(i) / kSrgbSteps, c = root * root;
       table[i] = 255 * (c <= 0.0031308f ? 12.92f * c : 1.055f * std::pow(c, 1 / 2.4f) - 0.055f);
     }
     return table;
   }();
-  const float place = std::sqrt(std::clamp(value, 0.0f, 1.0f)) * kSteps;
+  return kTable;
+}
+
+float srgb_from_linear(float value) {
+  const std::span<const float> table = srgb_table();
+  const float place = std::sqrt(std::clamp(value, 0.0f, 1.0f)) * kSrgbSteps;
   const auto below = static_cast<std::size_t>(place);
-  return kTable[below] + (place - static_cast<float>(below)) * (kTable[below + 1] - kTable[below]);
+  return table[below] + (place - static_cast<float>(below)) * (table[below + 1] - table[below]);
 }
 
 Vec3 surface_colour(const Material& material, const Vec3& local, const Vec2& uv, const std::vector<Image>& images) {

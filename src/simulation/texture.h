@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "simulation/mesh.h"
 
 namespace svnet::simulation {
@@ -13,5 +15,7 @@ bool is_metal(const Material&, const Vec2& uv, const std::vector<Image>& images)
 /// 8-bit sRGB to linear and back.
 float linear_from_srgb(std::uint8_t level);
 float srgb_from_linear(float value);  // in [0, 255], clipped
+/// Its table: element i is the level of (i / n)², where n is the size less 2.
+std::span<const float> srgb_table();
 
 }  // namespace svnet::simulation

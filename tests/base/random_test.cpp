@@ -31,6 +31,26 @@ TEST_CASE("a random stream has the documented layout") {
   });
 }
 
+TEST_CASE("the words of many indices are those of each index") {
+  const std::uint64_t seed = 0x0123456789abcdef;
+  for_instruction_sets([&](const std::string& isa) {
+    INFO(isa);
+    for (const std::size_t count : {0, 1, 2, 3, 5, 7, 8, 15, 16, 17, 31, 33, 100, 256}) {
+      CAPTURE(count);
+      std::vector<std::uint32_t> low(count), words[4];
+      for (std::size_t i = 0; i < count; ++i) low[i] = static_cast<std::uint32_t>(~7u + 3 * i * i);
+      for (auto& word : words) word.assign(count + 1, 77);
+      random_words_of_each(seed, Stream::collection, 5, low.data(), count, 9,
+                           {words[0].data(), words[1].data(), words[2].data(), words[3].data()});
+      for (std::size_t w = 0; w < 4; ++w) {
+        CHECK(words[w][count] == 77);  // nothing behind the last one
+        for (std::size_t i = 0; i < count; ++i)
+          CHECK(words[w][i] == random_words(seed, Stream::collection, std::uint64_t{5} << 32 | low[i], 9)[w]);
+      }
+    }
+  });
+}
+
 TEST_CASE("below() is uniform and stays below") {
   RandomStream random(1, Stream::problem);
   std::vector<int> counts(7);

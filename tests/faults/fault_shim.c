@@ -4,7 +4,7 @@
  *   SVNET_FAULT_KIND    enospc, eio: that call fails; full: it and all later ones fail with ENOSPC; short: that call,
  * if it writes, writes half of its bytes SVNET_FAULT_COUNT   a file outside of the folder that receives the number of
  * calls at exit SVNET_FAULT_TRACE   if set, every call is named on stderr Counted are write, pwrite, writev, fwrite,
- * ftruncate, fsync, fdatasync, rename, mkdir, and open with O_CREAT. stdio calls the kernel without going through these
+ * ftruncate, fsync, fdatasync, syncfs, rename, mkdir, and open with O_CREAT. stdio calls the kernel without going through these
  * names, so fwrite itself fails instead. svnet maps files for reading only. */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -153,6 +153,10 @@ int fsync(int descriptor) {
 
 int fdatasync(int descriptor) {
   return verdict("fdatasync", descriptor_is_below(descriptor), 0) < 0 ? -1 : NEXT(fdatasync)(descriptor);
+}
+
+int syncfs(int descriptor) {
+  return verdict("syncfs", descriptor_is_below(descriptor), 0) < 0 ? -1 : NEXT(syncfs)(descriptor);
 }
 
 int rename(const char* from, const char* to) {

@@ -62,6 +62,18 @@ TEST_CASE("a fresh folder appears as a whole, or is removed") {
   CHECK(entries(place.path() / "a") == 1);
 }
 
+TEST_CASE("files are added to a fresh folder, each once") {
+  const TemporaryFolder place;
+  FreshFolder folder(place.path() / "a");
+  folder.add("b/c/file", "contents");
+  folder.add("empty", "");
+  CHECK_THROWS_WITH(folder.add("b/c/file", "again"),
+                    (folder.path() / "b/c/file").string() + ": cannot be written: File exists");
+  folder.keep();
+  CHECK(file_contents(place.path() / "a/b/c/file") == "contents");
+  CHECK(file_contents(place.path() / "a/empty").empty());
+}
+
 TEST_CASE("a fresh folder does not change what is next to it") {
   const TemporaryFolder place;
   place.write("a.partial/mine", "old");

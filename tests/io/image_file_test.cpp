@@ -9,6 +9,7 @@
 
 #include "base/sha256.h"
 #include "image/oriented.h"
+#include "io/images/image_codecs.h"
 #include "temporary_folder.h"
 
 using namespace svnet;
@@ -63,6 +64,23 @@ TEST_CASE("a written PNG reads back equal, and replaces an older one") {
     CHECK(read.height == image.height);
     CHECK(read.width == image.width);
     CHECK(read.rgb == image.rgb);
+  }
+}
+
+TEST_CASE("the PNG of a photograph has the same pixels as that of a drawing") {
+  for (const auto& [height, width] : {std::pair(1, 1), std::pair(1, 7), std::pair(5, 1), std::pair(67, 33)}) {
+    CAPTURE(height, width);
+    Image image{height, width, {}};
+    for (Index i = 0; i < height * width * 3; ++i) image.rgb.push_back(static_cast<std::uint8_t>(i * i / 7 + 90));
+    for (const PngContent content : {PngContent::drawing, PngContent::photograph}) {
+      const std::string file = encoded_png("it", image, content);
+      const Image back = decode_png("it", {reinterpret_cast<const std::uint8_t*>(file.data()), file.size()});
+      CHECK(back.height == height);
+      CHECK(back.rgb == image.rgb);
+    }
+    const std::string grey = encoded_grey_png("it", height, width, std::span(image.rgb).first(height * width));
+    const Image back = decode_png("it", {reinterpret_cast<const std::uint8_t*>(grey.data()), grey.size()});
+    for (Index i = 0; i < height * width; ++i) CHECK(back.rgb[static_cast<std::size_t>(3 * i)] == image.rgb[i]);
   }
 }
 

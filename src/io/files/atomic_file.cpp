@@ -12,16 +12,13 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/files/descriptor.h"
 #include "io/files/temporary_name.h"
 
 namespace svnet::io {
 namespace {
 
 namespace fs = std::filesystem;
-
-[[noreturn]] void fail_to_write(const fs::path& path, int error) {
-  fail(path.string(), ": cannot be written: ", std::generic_category().message(error));
-}
 
 /// fsync, repeated if a signal interrupts it.
 int synced(int descriptor) {
@@ -30,20 +27,6 @@ int synced(int descriptor) {
   while (result != 0 && errno == EINTR);
   return result;
 }
-
-class Descriptor {
- public:
-  explicit Descriptor(int number) : number_(number) {}
-  ~Descriptor() {
-    if (number_ >= 0) ::close(number_);
-  }
-  Descriptor(const Descriptor&) = delete;
-  Descriptor& operator=(const Descriptor&) = delete;
-  int number() const { return number_; }
-
- private:
-  int number_;
-};
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
@@ -149,16 +132,6 @@ class Temporary {
  private:
   fs::path path_;
 };
-
-void write_all(const fs::path& target, const Descriptor& file, std::string_view contents) {
-  if (file.number() < 0) fail_to_write(target, errno);
-  while (!contents.empty()) {
-    const ssize_t written = ::write(file.number(), contents.data(), contents.size());
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) fail_to_write(target, errno);
-    contents.remove_prefix(static_cast<std::size_t>(written));
-  }
-}
 
 }  // namespace
 

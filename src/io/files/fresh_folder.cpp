@@ -4,11 +4,14 @@
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/error.h"
 #include "io/files/atomic_file.h"
+#include "io/files/descriptor.h"
+#include "io/files/make_folder.h"
 #include "io/files/temporary_name.h"
 
 namespace svnet::io {
@@ -69,6 +72,13 @@ fs::path partial_of(const fs::path& target, const fs::path& name) {
   return folder_beside(target, name);
 }
 
+/// Brings everything that was written to the file system of `folder` to the disk. Throws Error, which calls it `name`,
+/// if that fails.
+void sync_file_system(const fs::path& folder, const fs::path& name) {
+  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (descriptor.number() < 0 || ::syncfs(descriptor.number()) != 0) fail_to_write(name, errno);
+}
+
 }  // namespace
 
 FreshFolder::FreshFolder(const fs::path& path)
@@ -79,7 +89,16 @@ FreshFolder::~FreshFolder() {
   fs::remove_all(partial_, ignored);
 }
 
+void FreshFolder::add(const fs::path& relative, std::string_view contents) {
+  const fs::path path = partial_ / relative;
+  make_folder(path.parent_path());
+  has_added_ = true;
+  const Descriptor file(::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666));
+  write_all(path, file, contents);
+}
+
 void FreshFolder::keep() {
+  if (has_added_) sync_file_system(partial_, name_);
   give_name(partial_, target_, name_);
   make_rename_last(target_);
 }

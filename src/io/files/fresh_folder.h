@@ -1,5 +1,7 @@
 #pragma once
+#include <atomic>
 #include <filesystem>
+#include <string_view>
 
 namespace svnet::io {
 
@@ -17,11 +19,17 @@ class FreshFolder {
 
   /// The temporary folder: files are written here.
   const std::filesystem::path& path() const { return partial_; }
-  /// Renames the temporary folder to its final path. Throws Error if something else has taken that path.
+  /// Writes a new file of the folder and the folders above it; `relative` is its path in this one. Thread-safe. Throws
+  /// Error that names the file and gives the system's reason. The file is synced by keep(), with all others: to sync
+  /// thousands of files one by one takes longer than to write them.
+  void add(const std::filesystem::path& relative, std::string_view contents);
+  /// Syncs the files that were added, and renames the temporary folder to its final path. Throws Error if something
+  /// else has taken that path, or if the disk fails.
   void keep();
 
  private:
   std::filesystem::path name_, target_, partial_;
+  std::atomic<bool> has_added_ = false;
 };
 
 }  // namespace svnet::io

@@ -49,18 +49,18 @@ DepthImage decode_depth(const std::string& name, Bytes file, std::optional<doubl
   return checked(name, image);
 }
 
-void write_depth_png(const fs::path& path, const DepthImage& depth) {
+std::string encoded_depth_png(const std::string& name, const DepthImage& depth) {
   Grey16 grey{depth.height, depth.width, {}};
   grey.levels.reserve(depth.metres.size());
   for (const float z : depth.metres) {
     const double mm = std::round(1000.0 * static_cast<double>(z));
     grey.levels.push_back(mm >= 0 && mm < kNotMeasured ? static_cast<std::uint16_t>(mm) : std::uint16_t{0});
   }
-  write_atomically(path, encoded_grey16_png(path.string(), grey));
+  return encoded_grey16_png(name, grey);
 }
 
-void write_grey_png(const fs::path& path, Index height, Index width, std::span<const std::uint8_t> levels) {
-  write_atomically(path, encoded_grey_png(path.string(), height, width, levels));
+void write_depth_png(const fs::path& path, const DepthImage& depth) {
+  write_atomically(path, encoded_depth_png(path.string(), depth));
 }
 
 }  // namespace svnet::io

@@ -19,11 +19,10 @@ DepthImage read_depth(const std::filesystem::path& path, std::optional<double> u
 /// The same for the contents of a file in memory. Errors call it `name`.
 DepthImage decode_depth(const std::string& name, std::span<const std::uint8_t> file, std::optional<double> unit_m = {});
 
-/// Writes a 16-bit grey PNG in millimetres. Depth above 65.534 m becomes 0, not measured. Throws Error that names
-/// `path`.
+/// The contents of a 16-bit grey PNG file in millimetres. Depth above 65.534 m becomes 0, not measured. Throws Error
+/// that begins with `name`.
+std::string encoded_depth_png(const std::string& name, const DepthImage&);
+/// Writes it atomically. Throws Error that names `path`.
 void write_depth_png(const std::filesystem::path& path, const DepthImage&);
-
-/// Writes an 8-bit grey PNG; levels (height, width). Throws Error that names `path`.
-void write_grey_png(const std::filesystem::path& path, Index height, Index width, std::span<const std::uint8_t> levels);
 
 }  // namespace svnet::io

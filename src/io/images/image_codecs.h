@@ -31,8 +31,10 @@ std::string recognised_instead(Bytes file);
 /// The EXIF orientation of a JPEG, PNG or WebP file, 1 to 8; 1 if it has none.
 int exif_orientation(Bytes file);
 
+/// What a PNG file shows, which decides how it is compressed: areas that repeat, or the noise of a camera.
+enum class PngContent { drawing, photograph };
 /// The contents of a PNG file with 8-bit RGB pixels.
-std::string encoded_png(const std::string& name, const Image& image);
+std::string encoded_png(const std::string& name, const Image& image, PngContent content = PngContent::drawing);
 
 /// An image with one 16-bit channel, (height, width).
 struct Grey16 {
@@ -43,8 +45,9 @@ struct Grey16 {
 
 /// Throws Error for any other kind of PNG.
 Grey16 decode_grey16_png(const std::string& name, Bytes file);
+/// For pixels with noise, such as depth.
 std::string encoded_grey16_png(const std::string& name, const Grey16&);
-/// `levels`: one 8-bit channel, (height, width).
+/// `levels`: one 8-bit channel, (height, width), of areas of one level, as masks are.
 std::string encoded_grey_png(const std::string& name, Index height, Index width, std::span<const std::uint8_t> levels);
 
 /// Whether a file begins as NumPy's .npy files do.

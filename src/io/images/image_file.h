@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-#include <string>
 
 #include "base/exif_orientation.h"
 #include "image/image.h"
