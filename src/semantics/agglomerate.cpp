@@ -207,6 +207,11 @@ struct Row<0> {
   }
 };
 
+/// Whether a column waits until the next merge. That gains only if the rows of a merge fit in registers, of which there
+/// are 32 with AVX-512.
+template <int kVectors>
+constexpr bool kDefers = kVectors > 0 && hn::MaxLanes(Floats()) == 16;
+
 /// Returns the first slot whose value is `wanted`; one must have it. is_only, if not null: whether no other slot has
 /// it.
 template <int kVectors>
@@ -265,7 +270,7 @@ HWY_INLINE Candidate search(const AgglomerationState& s, Index a, Index pending)
   float* row = s.dissimilarity + a * s.stride;
   const float* only_later = s.only_later - a;
   set(s.nearest_value, a, hn::Set(d, kInfinity));
-  if (kVectors > 0) set(row, pending, hn::Set(d, s.dissimilarity[pending * s.stride + a]));
+  if (kDefers<kVectors>) set(row, pending, hn::Set(d, s.dissimilarity[pending * s.stride + a]));
   Row<kVectors> later(s.scratch), bounds(s.nearest_value);
   for (Index v = 0; v < vectors<kVectors>(s); ++v) {
     const Index i = v * lanes;
@@ -309,7 +314,7 @@ HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a
   set(s.nearest_value, a, infinity);  // until conclude sets it
   set(s.nearest, a, hn::Set(di, kUnknown));
   set(s.nearest, b, hn::Set(di, kUnknown));
-  if (kVectors > 0) {
+  if (kDefers<kVectors>) {
     set(row_a, pending, hn::Set(d, row_pending[a]));
     set(row_b, pending, hn::Set(d, row_pending[b]));
   }
@@ -370,12 +375,12 @@ HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a
     }
   }
   if (uses_sizes(kIsWard ? Linkage::ward : linkage)) set(s.size, a, both);
+  if (kDefers<kVectors>) store_column(s, pending);
   if (kVectors > 0) {
-    store_column(s, pending);
     for (Index v = 0; v < count; ++v) hn::Store(merged.get(v), d, row_a + v * lanes);
   }
   const Candidate result = conclude<kVectors>(s, a, later, bounds);
-  if (kVectors == 0) store_column(s, a);
+  if (!kDefers<kVectors>) store_column(s, a);
   return result;
 }
 
