@@ -2,13 +2,19 @@
 // algorithms" (arXiv 1109.2378), section 3; updates by Lance and Williams (The Computer Journal 9, 1967).
 //
 // The linkages are reducible: a merged cluster is never nearer to a third cluster than the nearer of its two parts was.
-// So the distance of a slot to its nearest later slot, once computed, stays a lower bound. Only the slot with the
-// smallest bound is searched again, and only if its bound is out of date.
+// So the distance of a slot to its nearest later slot, once computed, stays a lower bound, and so does that to its
+// second nearest one. If the nearest slot is merged, the smaller of the second bound and the dissimilarity to the
+// merged cluster is the new bound. If it is the latter, the nearest slot is known again. Otherwise the slot is searched
+// again, but only once its bound is the smallest.
+//
+// A merge changes a row and a column. Stores of single floats delay the next loads of whole vectors of the same rows,
+// so a column waits in its row until the next merge has loaded its two rows. Meanwhile it is `pending`.
 #include "semantics/agglomerate.h"
 
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -57,6 +63,8 @@ using FloatVector = hn::Vec<Floats>;
 using IntVector = hn::Vec<Ints>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kLargest = std::numeric_limits<float>::max();
+constexpr std::int32_t kUnknown = -1;
 
 /// first, first + 1, … Iota(first) would be slower: the compiler builds it in memory, lane by lane.
 HWY_INLINE IntVector positions_from(Index first) {
@@ -67,7 +75,11 @@ HWY_INLINE IntVector positions_from(Index first) {
 HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
   std::uint8_t bytes[8];
   hn::StoreMaskBits(Floats(), mask, bytes);
-  if constexpr (hn::MaxLanes(Floats()) > 8) return std::uint64_t{bytes[0]} | std::uint64_t{bytes[1]} << 8;
+  if constexpr (hn::MaxLanes(Floats()) > 8) {
+    std::uint16_t both;  // little-endian, as every machine with such vectors
+    std::memcpy(&both, bytes, sizeof both);
+    return both;
+  }
   return bytes[0];
 }
 
@@ -76,25 +88,6 @@ template <int kVectors>
 HWY_INLINE Index vectors(const AgglomerationState& s) {
   const Index lanes = hn::Lanes(Floats());
   return kVectors > 0 ? kVectors : (s.n + lanes - 1) / lanes;
-}
-
-/// Returns the first slot after slot `after` (-1: of all slots) whose value is `wanted`, or n if there is none. No
-/// branch depends on the values.
-template <int kVectors>
-HWY_INLINE Index first_equal(const AgglomerationState& s, const float* values, Index after, FloatVector wanted) {
-  const Floats d;
-  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s), of_word = 64 / lanes;
-  Index found = s.n;
-  for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
-    std::uint64_t bits = 0;
-    for (Index v = v0; v < std::min(count, v0 + of_word); ++v)
-      bits |= bits_of(hn::Eq(hn::Load(d, values + v * lanes), wanted)) << ((v - v0) * lanes);
-    const Index base = v0 * lanes, before = after - base;
-    const std::uint64_t later = ~std::uint64_t{0} << (before & 63) << 1;
-    bits &= before < 0 ? ~std::uint64_t{0} : before > 63 ? 0 : later;
-    found = bits != 0 ? base + std::countr_zero(bits) : found;
-  }
-  return found;
 }
 
 /// Copies the part below the diagonal to the part above it, in blocks of 4 x 4 if there are vectors of 4 lanes.
@@ -131,11 +124,13 @@ HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
   const Floats d;
   const Ints di;
   const Index lanes = hn::Lanes(d);
+  const auto infinity = hn::Set(d, kInfinity);
   for (Index j = 0; j < s.n; ++j) s.merged_into[j] = j;
   for (Index i = 0; i < s.stride; i += lanes) {
     const auto column = positions_from(i);
     auto value = hn::Set(d, kInfinity);
-    auto position = hn::Set(di, -1);
+    auto next = hn::Set(d, kLargest);
+    auto position = hn::Set(di, kUnknown);
     if (i < s.n) hn::Store(hn::Zero(d), d, s.dissimilarity + i * s.stride + i);
     for (Index j = i + 1; j < s.n; ++j) {
       float* row = s.dissimilarity + j * s.stride;
@@ -145,11 +140,14 @@ HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
       auto here = hn::IfThenElseZero(inside, hn::Load(d, given + i));
       if (uses_roots(linkage)) here = hn::Sqrt(here);
       hn::Store(here, d, row + i);
-      const auto nearer = hn::And(inside, hn::Lt(here, value));
-      value = hn::IfThenElse(nearer, here, value);
+      const auto candidate = hn::IfThenElse(inside, here, infinity), nearer_than = value;
+      next = hn::Min(next, hn::Max(value, candidate));
+      value = hn::Min(value, candidate);
+      const auto nearer = hn::Lt(value, nearer_than);
       position = hn::IfThenElse(hn::RebindMask(di, nearer), slot, position);
     }
     hn::Store(value, d, s.nearest_value + i);
+    hn::Store(next, d, s.next_value + i);
     hn::Store(position, di, s.nearest + i);
     hn::Store(hn::Set(d, 1.0f), d, s.size + i);
     const auto outside = hn::Gt(column, hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
@@ -158,21 +156,25 @@ HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
   mirror(s);
 }
 
-/// values[slot] = value. Stores a whole vector, because a later vector load would stall on a narrower store.
+/// values[slot] = value. Stores a whole vector, because a later vector load would stall on a narrower store, and on a
+/// masked one: so the two parts are joined by Or, which the compiler cannot make a masked store of.
 HWY_INLINE void set(float* values, Index slot, FloatVector value) {
   const Floats d;
   const Index first = slot & -static_cast<Index>(hn::Lanes(d));
-  const auto lane = hn::Eq(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(slot - first)));
-  hn::Store(hn::IfThenElse(hn::RebindMask(d, lane), value, hn::Load(d, values + first)), d, values + first);
+  const auto lane =
+      hn::RebindMask(d, hn::Eq(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(slot - first))));
+  const auto others = hn::IfThenZeroElse(lane, hn::Load(d, values + first));
+  hn::Store(hn::Or(hn::IfThenElseZero(lane, value), others), d, values + first);
 }
 HWY_INLINE void set(std::int32_t* values, Index slot, IntVector value) {
   const Ints d;
   const Index first = slot & -static_cast<Index>(hn::Lanes(d));
   const auto lane = hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(slot - first)));
-  hn::Store(hn::IfThenElse(lane, value, hn::Load(d, values + first)), d, values + first);
+  const auto others = hn::IfThenZeroElse(lane, hn::Load(d, values + first));
+  hn::Store(hn::Or(hn::IfThenElseZero(lane, value), others), d, values + first);
 }
 
-/// Two clusters that may be the nearest pair: a slot, and the later slot that its bound refers to.
+/// A slot with the smallest bound, and its nearest later slot; kUnknown: it must be searched.
 struct Candidate {
   Index slot, nearest;
 };
@@ -183,83 +185,142 @@ struct Smallest {
   Index slot;
 };
 
+/// A value per slot, in registers if the number of vectors is known.
 template <int kVectors>
-HWY_INLINE Smallest smallest_bound(const AgglomerationState& s) {
+struct Row {
+  FloatVector at[kVectors];
+
+  explicit Row(float*) {}
+  HWY_INLINE FloatVector get(Index v) const { return at[v]; }
+  HWY_INLINE void set(Index v, FloatVector value) { at[v] = value; }
+};
+template <>
+struct Row<0> {
+  float* memory;
+
+  explicit Row(float* scratch) : memory(scratch) {}
+  HWY_INLINE FloatVector get(Index v) const {
+    return hn::Load(Floats(), memory + v * static_cast<Index>(hn::Lanes(Floats())));
+  }
+  HWY_INLINE void set(Index v, FloatVector value) {
+    hn::Store(value, Floats(), memory + v * static_cast<Index>(hn::Lanes(Floats())));
+  }
+};
+
+/// Whether a column waits until the next merge. That gains only if the rows of a merge fit in registers, of which there
+/// are 32 with AVX-512.
+template <int kVectors>
+constexpr bool kDefers = kVectors > 0 && hn::MaxLanes(Floats()) == 16;
+
+/// Returns the first slot whose value is `wanted`; one must have it. is_only, if not null: whether no other slot has
+/// it.
+template <int kVectors>
+HWY_INLINE Index first_equal(const AgglomerationState& s, const Row<kVectors>& values, FloatVector wanted,
+                             bool* is_only) {
+  const Index lanes = hn::Lanes(Floats()), count = vectors<kVectors>(s), of_word = 64 / lanes;
+  Index found = 0;
+  std::uint64_t bits_found = 0;
+  for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
+    std::uint64_t bits = 0;
+    for (Index v = v0; v < std::min(count, v0 + of_word); ++v)
+      bits |= bits_of(hn::Eq(values.get(v), wanted)) << ((v - v0) * lanes);
+    found = bits != 0 ? v0 * lanes + std::countr_zero(bits) : found;
+    bits_found = bits_found != 0 && bits != 0 ? ~std::uint64_t{0} : bits_found | bits;
+  }
+  if (is_only != nullptr) *is_only = (bits_found & (bits_found - 1)) == 0;
+  return found;
+}
+
+/// Sets the bounds of slot a, of which `later` has the dissimilarities to later slots, infinity elsewhere. `bounds` are
+/// those of the other slots. Returns the candidate with the smallest bound of all slots.
+template <int kVectors>
+HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, const Row<kVectors>& later,
+                              const Row<kVectors>& bounds) {
+  const Floats d;
+  const Index count = vectors<kVectors>(s);
+  auto nearest = later.get(0), other = bounds.get(0);
+  for (Index v = 1; v < count; ++v) {
+    nearest = hn::Min(nearest, later.get(v));
+    other = hn::Min(other, bounds.get(v));
+  }
+  other = hn::MinOfLanes(d, other);
+  nearest = hn::MinOfLanes(d, nearest);
+  auto next = hn::Set(d, kLargest);
+  for (Index v = 0; v < count; ++v) {
+    const auto value = later.get(v);
+    next = hn::Min(next, hn::IfThenElse(hn::Eq(value, nearest), next, value));
+  }
+  next = hn::MinOfLanes(d, next);
+  bool is_only = false;
+  const Index of_nearest = first_equal<kVectors>(s, later, nearest, &is_only);
+  const Index slot = first_equal<kVectors>(s, bounds, other, nullptr);
+  set(s.nearest_value, a, nearest);
+  set(s.next_value, a, HWY_LIKELY(is_only) ? next : hn::Min(nearest, hn::Set(d, kLargest)));
+  set(s.nearest, a, hn::Set(Ints(), static_cast<std::int32_t>(of_nearest)));
+  const float of_a = hn::GetLane(nearest), of_other = hn::GetLane(other);
+  const bool is_a = of_a < of_other || (of_a == of_other && a < slot);
+  return is_a ? Candidate{a, of_nearest} : Candidate{slot, s.nearest[slot]};
+}
+
+/// Recomputes the bounds of slot a. Returns the new candidate.
+template <int kVectors>
+HWY_INLINE Candidate search(const AgglomerationState& s, Index a, Index pending) {
   const Floats d;
   const Index lanes = hn::Lanes(d);
-  auto value = hn::Load(d, s.nearest_value);
-  for (Index v = 1; v < vectors<kVectors>(s); ++v) value = hn::Min(value, hn::Load(d, s.nearest_value + v * lanes));
-  value = hn::MinOfLanes(d, value);
-  return {value, first_equal<kVectors>(s, s.nearest_value, -1, value)};
-}
-
-HWY_INLINE bool up_to_date(const AgglomerationState& s, const Candidate& c) {
-  return s.gone[c.nearest] == 0 && s.dissimilarity[c.slot * s.stride + c.nearest] == s.nearest_value[c.slot];
-}
-
-/// Sets the nearest later slot of slot a; its distance is the smallest lane of `later`. `other` is the smallest bound
-/// of the other slots. Returns the candidate of a or of `other`, whichever bound is smaller.
-template <int kVectors>
-HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, FloatVector later, const Smallest& other) {
-  later = hn::MinOfLanes(Floats(), later);
-  const Index nearest = first_equal<kVectors>(s, s.dissimilarity + a * s.stride, a, later);
-  set(s.nearest_value, a, later);
-  set(s.nearest, a, hn::Set(Ints(), static_cast<std::int32_t>(nearest)));
-  const float of_a = hn::GetLane(later), of_other = hn::GetLane(other.value);
-  const bool is_a = of_a < of_other || (of_a == of_other && a < other.slot);
-  return is_a ? Candidate{a, nearest} : Candidate{other.slot, s.nearest[other.slot]};
-}
-
-/// Recomputes the bound of slot a. Returns the new candidate.
-template <int kVectors>
-HWY_INLINE Candidate search(const AgglomerationState& s, Index a) {
-  const Floats d;
-  const Ints di;
-  const Index lanes = hn::Lanes(d);
-  const auto infinity = hn::Set(d, kInfinity);
-  set(s.nearest_value, a, infinity);
-  const Smallest other = smallest_bound<kVectors>(s);
   float* row = s.dissimilarity + a * s.stride;
-  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
-  auto later = infinity;
-  auto position = hn::Iota(di, 0);
-  for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+  const float* only_later = s.only_later - a;
+  set(s.nearest_value, a, hn::Set(d, kInfinity));
+  if (kDefers<kVectors>) set(row, pending, hn::Set(d, s.dissimilarity[pending * s.stride + a]));
+  Row<kVectors> later(s.scratch), bounds(s.nearest_value);
+  for (Index v = 0; v < vectors<kVectors>(s); ++v) {
     const Index i = v * lanes;
     const auto value = hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i));
-    hn::Store(value, d, row + i);
-    later = hn::Min(later, hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity));
+    later.set(v, hn::Add(value, hn::LoadU(d, only_later + i)));
+    if (kVectors > 0) bounds.set(v, hn::Load(d, s.nearest_value + i));
   }
-  return conclude<kVectors>(s, a, later, other);
+  return conclude<kVectors>(s, a, later, bounds);
 }
 
-/// Merges slot b into the earlier slot a. Returns the new candidate.
+/// Stores row `column` as a column.
+HWY_INLINE void store_column(const AgglomerationState& s, Index column) {
+  const float* HWY_RESTRICT from = s.dissimilarity + column * s.stride;
+  float* HWY_RESTRICT to = s.dissimilarity + column;
+  const Index stride = s.stride;
+  for (Index row = 0; row < s.n; row += 4, to += 4 * stride) {  // memory for three rows after the last
+    to[0] = from[row];
+    to[stride] = from[row + 1];
+    to[2 * stride] = from[row + 2];
+    to[3 * stride] = from[row + 3];
+  }
+}
+
+/// Merges slot b into the earlier slot a, which is the new pending column. Returns the new candidate.
 template <bool kIsWard, int kVectors>
-HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a, Index b) {
+HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a, Index b, Index pending) {
   const Floats d;
   const Ints di;
-  const Index lanes = hn::Lanes(d);
-  float* HWY_RESTRICT row_a = s.dissimilarity + a * s.stride;
-  const float* HWY_RESTRICT row_b = s.dissimilarity + b * s.stride;
+  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s);
+  float* row_a = s.dissimilarity + a * s.stride;
+  float* row_b = s.dissimilarity + b * s.stride;
+  const float* row_pending = s.dissimilarity + pending * s.stride;
   const auto of_a = hn::Set(d, s.size[a]), of_b = hn::Set(d, s.size[b]), both = hn::Add(of_a, of_b);
-  const auto between = hn::Set(d, row_a[b]), infinity = hn::Set(d, kInfinity);
-  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), step = hn::Set(di, static_cast<std::int32_t>(lanes));
+  const auto between = hn::Set(d, s.nearest_value[a]), infinity = hn::Set(d, kInfinity);
+  const auto largest = hn::Set(d, kLargest);
+  const auto slot_a = hn::Set(di, static_cast<std::int32_t>(a)), slot_b = hn::Set(di, static_cast<std::int32_t>(b));
+  const float *only_later = s.only_later - a, *only_earlier = s.only_earlier - a;
   s.merged_into[b] = a;
   set(s.gone, b, infinity);
   set(s.nearest_value, b, infinity);
   set(s.nearest_value, a, infinity);  // until conclude sets it
-  Smallest other = smallest_bound<kVectors>(s);
-
-  auto later = infinity;
+  set(s.nearest, a, hn::Set(di, kUnknown));
+  set(s.nearest, b, hn::Set(di, kUnknown));
+  if (kDefers<kVectors>) {
+    set(row_a, pending, hn::Set(d, row_pending[a]));
+    set(row_b, pending, hn::Set(d, row_pending[b]));
+  }
+  Row<kVectors> merged(row_a), later(s.scratch), bounds(s.nearest_value);
   auto any_nearer = hn::Lt(infinity, infinity);
-  auto position = hn::Iota(di, 0);
-  /// The earlier slots for which the merged cluster is now the nearest: possible after rounding, or in a tie.
-  const auto finds_it_nearer = [&](Index i, FloatVector value) HWY_ATTR {
-    const auto bound = hn::Load(d, s.nearest_value + i);
-    const auto tied = hn::And(hn::Eq(value, bound), hn::RebindMask(d, hn::Gt(hn::Load(di, s.nearest + i), slot_a)));
-    return hn::And(hn::Lt(value, infinity),
-                   hn::And(hn::RebindMask(d, hn::Gt(slot_a, position)), hn::Or(hn::Lt(value, bound), tied)));
-  };
-  for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+  for (Index v = 0; v < count; ++v) {
     const Index i = v * lanes;
     const auto to_a = hn::Load(d, row_a + i), to_b = hn::Load(d, row_b + i);
     FloatVector value = infinity;
@@ -282,33 +343,45 @@ HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a
         break;
     }
     value = hn::Add(value, hn::Load(d, s.gone + i));
-    hn::Store(value, d, row_a + i);
-    any_nearer = hn::Or(any_nearer, finds_it_nearer(i, value));
-    later = hn::Min(later, hn::IfThenElse(hn::RebindMask(d, hn::Gt(position, slot_a)), value, infinity));
+    merged.set(v, value);
+    later.set(v, hn::Add(value, hn::LoadU(d, only_later + i)));
+    // The earlier slots whose nearest slot was a or b.
+    const auto earlier = hn::Add(value, hn::LoadU(d, only_earlier + i));
+    const auto nearest = hn::Load(di, s.nearest + i);
+    const auto lost = hn::Or(hn::Eq(nearest, slot_a), hn::Eq(nearest, slot_b));
+    const auto bound = hn::Load(d, s.nearest_value + i), next = hn::Load(d, s.next_value + i);
+    const auto is_next = hn::Lt(earlier, next);
+    const auto known = hn::IfThenElse(hn::RebindMask(di, is_next), slot_a, hn::Set(di, kUnknown));
+    const auto new_bound = hn::IfThenElse(hn::RebindMask(d, lost), hn::Min(earlier, next), bound);
+    bounds.set(v, new_bound);
+    hn::Store(new_bound, d, s.nearest_value + i);
+    hn::Store(hn::IfThenElse(lost, known, nearest), di, s.nearest + i);
+    // After rounding, or in a tie. With single linkage the merged cluster is often as near as the second nearest slot.
+    const auto nearer = kIsWard ? hn::Le(earlier, next) : hn::Or(is_next, hn::Le(earlier, hn::Min(bound, largest)));
+    any_nearer = hn::Or(any_nearer, hn::AndNot(hn::RebindMask(d, lost), nearer));
   }
   if (HWY_UNLIKELY(!hn::AllFalse(d, any_nearer))) {
-    position = hn::Iota(di, 0);
-    for (Index v = 0; v < vectors<kVectors>(s); ++v, position = hn::Add(position, step)) {
+    for (Index v = 0; v < count; ++v) {
       const Index i = v * lanes;
-      const auto value = hn::Load(d, row_a + i);
-      const auto nearer = finds_it_nearer(i, value);
-      hn::Store(hn::IfThenElse(nearer, value, hn::Load(d, s.nearest_value + i)), d, s.nearest_value + i);
-      hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), slot_a, hn::Load(di, s.nearest + i)), di, s.nearest + i);
+      const auto earlier = hn::Add(merged.get(v), hn::LoadU(d, only_earlier + i));
+      const auto bound = hn::Load(d, s.nearest_value + i), next = hn::Load(d, s.next_value + i);
+      hn::Store(hn::Min(next, earlier), d, s.next_value + i);
+      const auto nearer = hn::And(hn::Le(earlier, bound), hn::Lt(earlier, infinity));
+      const auto nearest = hn::Load(di, s.nearest + i);
+      // A slot that has just become the nearest one is known; to search it again does no harm.
+      hn::Store(hn::IfThenElse(hn::RebindMask(di, nearer), hn::Set(di, kUnknown), nearest), di, s.nearest + i);
+      bounds.set(v, hn::Min(bound, earlier));
+      hn::Store(bounds.get(v), d, s.nearest_value + i);
     }
-    other = smallest_bound<kVectors>(s);
   }
   if (uses_sizes(kIsWard ? Linkage::ward : linkage)) set(s.size, a, both);
-  const Candidate next = conclude<kVectors>(s, a, later, other);
-
-  float* HWY_RESTRICT to = s.dissimilarity + a;
-  const Index stride = s.stride;
-  for (Index row = 0; row < s.n; row += 4, to += 4 * stride) {  // memory for three rows after the last
-    to[0] = row_a[row];
-    to[stride] = row_a[row + 1];
-    to[2 * stride] = row_a[row + 2];
-    to[3 * stride] = row_a[row + 3];
+  if (kDefers<kVectors>) store_column(s, pending);
+  if (kVectors > 0) {
+    for (Index v = 0; v < count; ++v) hn::Store(merged.get(v), d, row_a + v * lanes);
   }
-  return next;
+  const Candidate result = conclude<kVectors>(s, a, later, bounds);
+  if (!kDefers<kVectors>) store_column(s, a);
+  return result;
 }
 
 /// Ward's formula is compiled by itself. The others are so short that one body chooses among them for each vector.
@@ -316,11 +389,13 @@ template <bool kIsWard, int kVectors>
 void agglomerate_by(Linkage linkage, Index k, const AgglomerationState& given) {
   const AgglomerationState s = given;  // a local copy, which the compiler knows no vector store to change
   start(linkage, s);
-  const Index first = smallest_bound<kVectors>(s).slot;
-  Candidate next{first, s.nearest[first]};
+  Index pending = 0;
+  Candidate next = search<kVectors>(s, 0, pending);
   for (Index clusters = s.n; clusters > k; --clusters) {
-    while (!up_to_date(s, next)) next = search<kVectors>(s, next.slot);
-    next = merge<kIsWard, kVectors>(linkage, s, next.slot, next.nearest);
+    while (next.nearest == kUnknown) next = search<kVectors>(s, next.slot, pending);
+    const Index a = next.slot;
+    next = merge<kIsWard, kVectors>(linkage, s, a, next.nearest, pending);
+    pending = a;
   }
 }
 

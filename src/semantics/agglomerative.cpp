@@ -1,6 +1,7 @@
 #include "semantics/agglomerative.h"
 
 #include <algorithm>
+#include <limits>
 
 #include "base/error.h"
 #include "semantics/agglomerate.h"
@@ -10,11 +11,19 @@ namespace svnet::semantics {
 Agglomerative::Agglomerative(Linkage linkage, Index max_points)
     : linkage_(linkage),
       dissimilarity_(max_points),
-      size_(max_points + 31),
-      gone_(max_points + 31),
-      nearest_value_(max_points + 31),
-      nearest_(max_points + 31),
-      merged_into_(max_points + 31) {}
+      room_(max_points + 31),
+      size_(room_),
+      gone_(room_),
+      scratch_(room_),
+      nearest_value_(room_),
+      next_value_(room_),
+      sides_(3 * room_),
+      nearest_(room_),
+      merged_into_(room_) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  std::fill_n(sides_.data(), room_, kInfinity);
+  std::fill_n(sides_.data() + 2 * room_, room_, kInfinity);
+}
 
 void Agglomerative::cluster(const DistanceMatrix& distances, std::span<const std::int32_t> rows, Index k,
                             std::span<std::int32_t> labels) {
@@ -40,8 +49,9 @@ void Agglomerative::check_sizes(Index points, Index k, Index labels) const {
 void Agglomerative::merge_to(Index k, const float* triangle, std::span<std::int32_t> labels) {
   const Index n = labels.size();
   agglomerate(linkage_, k,
-              {n, dissimilarity_.stride(), triangle, dissimilarity_.row(0), size_.data(), gone_.data(),
-               nearest_value_.data(), nearest_.data(), merged_into_.data()});
+              {n, dissimilarity_.stride(), triangle, dissimilarity_.row(0), size_.data(), gone_.data(), scratch_.data(),
+               sides_.data() + room_ - 1, sides_.data() + 2 * room_, nearest_value_.data(), next_value_.data(),
+               nearest_.data(), merged_into_.data()});
   std::int32_t next = 0;
   for (Index i = 0; i < n; ++i) {
     const std::int32_t into = merged_into_[i];

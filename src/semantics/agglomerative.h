@@ -32,7 +32,9 @@ class Agglomerative {
   Linkage linkage_;
   // A cluster is in the slot of its first point.
   ProblemDistances dissimilarity_;
-  AlignedArray<float> size_, gone_, nearest_value_;
+  Index room_;  // elements of an array
+  AlignedArray<float> size_, gone_, scratch_, nearest_value_, next_value_;
+  AlignedArray<float> sides_;  // (3, room) infinity, 0, infinity: only_later and only_earlier
   AlignedArray<std::int32_t> nearest_, merged_into_;
 };
 

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "semantics/allocations.h"
 #include "semantics/clustering_fixtures.h"
+#include "semantics/dendrogram.h"
 #include "semantics/random_points.h"
 
 using namespace svnet;
@@ -236,6 +237,28 @@ TEST_CASE("every instruction set gives the same partitions, with ties too, and t
       }
     partitions.push_back(all);
     CHECK(partitions.back() == partitions.front());
+  }
+  cap_instruction_set(sets.front());
+}
+
+TEST_CASE("every instruction set cuts the dendrogram, with ties and more slots than vectors that are unrolled") {
+  const auto sets = instruction_sets();
+  for (const auto& set : sets) {
+    cap_instruction_set(set);
+    for (const Index n : {2, 15, 33, 65, 131, 200})
+      for (const bool ties : {false, true}) {
+        auto values = random_points(n, 3, 7, static_cast<std::uint64_t>(27 + n));
+        if (ties)
+          for (auto& value : values) value = std::round(value);
+        const DistanceMatrix distances = distances_of(values, 3);
+        for (Linkage linkage : kLinkages) {
+          const Dendrogram history = dendrogram(linkage, distances);
+          for (Index k = 1; k <= n; k += 1 + n / 9) {
+            INFO(set << ", " << name_of(linkage) << ", " << n << " points, " << k << " clusters, ties " << ties);
+            REQUIRE(clustered(linkage, distances, all_rows(n), k) == cut(history, k));
+          }
+        }
+      }
   }
   cap_instruction_set(sets.front());
 }
