@@ -2,7 +2,6 @@
 // views), drawn, clustered and scored on one thread. distances/<views>/<features>: a matrix of squared distances.
 #include <benchmark/benchmark.h>
 
-#include "base/cpu.h"
 #include "semantics/problem_solver.h"
 
 namespace svnet {
@@ -67,7 +66,6 @@ void distance_matrix(benchmark::State& state) {
 }
 
 const bool kRegistered = [] {
-  cap_from_environment();
   for (const auto method : {Clustering::ward, Clustering::average, Clustering::complete, Clustering::single})
     benchmark::RegisterBenchmark(("problem/" + std::string(name_of(method))).c_str(), problem,
                                  ClusteringOptions{.method = method})
