@@ -139,7 +139,12 @@ void run_in_lanes(const Extraction& e, const Inputs& own, Index batch, Rows& row
   const Lanes::State state = lanes.state();
   if (was_stopped) rows.keep(state.complete);
   if (lanes.error()) std::rethrow_exception(lanes.error());
-  rows.report(state.done, state.complete);
+  try {
+    rows.report(state.done, state.complete);
+  } catch (...) {
+    rows.keep(state.complete);
+    throw;
+  }
 }
 
 /// All threads run one batch. Others prepare the next one, unless there is one thread only.

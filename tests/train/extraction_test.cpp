@@ -190,7 +190,7 @@ TEST_CASE("if progress throws, rows of the first inputs are kept, and the work g
                     Stop);
     const auto inputs = static_cast<Index>(kept.size()) / kDimension;
     REQUIRE(inputs > 0);
-    REQUIRE(inputs < 400);
+    REQUIRE(inputs <= 400);  // all, if the calling thread had no batch before the others took the last one
     CHECK(kept == all_rows(inputs));
     e.made = kept;
     std::atomic<bool> again = false;
