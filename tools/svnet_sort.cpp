@@ -69,6 +69,7 @@ class PictureReader {
     std::vector<char> is_turned(files.size(), 0);
     result.thumbnails.resize(keeps_thumbnails_ ? files.size() : 0);
     const models::Preprocessing& how = backbone_.preprocessing();
+    constexpr Index kBatch = 16;
     const auto prepared = [&](Index begin, Index end, Parallel& parallel) {
       Tensor batch = Tensor::empty({end - begin, how.height, how.width, 3});
       parallel.for_chunks(end - begin, 1, [&](Index i, Index, int) {
@@ -86,6 +87,8 @@ class PictureReader {
         train::extracted({.network = backbone_.kind().name,
                           .count = static_cast<Index>(files.size()),
                           .dimension = backbone_.dimension(),
+                          .batch = kBatch,
+                          .memory = backbone_.network().arena_size(kBatch),
                           .prepared = prepared,
                           .run = [&](const Tensor& batch) { return backbone_.features(batch); },
                           .name = [&](Index file) { return files[static_cast<std::size_t>(file)].string(); }},

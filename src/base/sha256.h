@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/sha256_block.h"
+
 namespace svnet {
 
 /// SHA-256 (FIPS 180-4) of bytes that are added in pieces. Fingerprints of contents use it.
@@ -18,10 +20,7 @@ class Sha256 {
   std::string hex() const;
 
  private:
-  void compress(const std::uint8_t* block);
-
-  std::array<std::uint32_t, 8> state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
-                                      0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  Sha256State state_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<std::uint8_t, 64> buffer_{};
   std::uint64_t size_ = 0;
 };

@@ -10,7 +10,6 @@ namespace svnet {
 namespace {
 
 constexpr Index kChannels = 3;
-constexpr int kPrecisionBits = 22;  // 32, less 8 for the pixel and 2 for the sum of weights
 
 /// The source index of each target index. Positions are summed step by step as Pillow does, so that ties are rounded
 /// the same way.
@@ -43,10 +42,10 @@ const Image& resized_nearest(const Image& image, Index height, Index width, Resi
 }
 
 /// The triangle filter: Pillow's precompute_coeffs and normalize_coeffs_8bpc, operation by operation.
-const ResizeBuffers::Filter& triangle_filter(Index from, Index to, ResizeBuffers& buffers) {
+const ResizeFilter& triangle_filter(Index from, Index to, ResizeBuffers& buffers) {
   const double scale = static_cast<double>(from) / static_cast<double>(to);
   const double support = std::max(scale, 1.0);
-  ResizeBuffers::Filter& filter = buffers.filter;
+  ResizeFilter& filter = buffers.filter;
   filter.taps = static_cast<Index>(std::ceil(support)) * 2 + 1;
   filter.starts.clear();
   filter.counts.clear();
@@ -66,7 +65,7 @@ const ResizeBuffers::Filter& triangle_filter(Index from, Index to, ResizeBuffers
     }
     for (Index t = 0; t < count; ++t) {
       const double weight = sum != 0 ? taps[t] / sum : taps[t];
-      filter.weights[i * filter.taps + t] = static_cast<std::int32_t>(0.5 + weight * (1 << kPrecisionBits));
+      filter.weights[i * filter.taps + t] = static_cast<std::int32_t>(0.5 + weight * (1 << kFilterBits));
     }
     filter.starts.push_back(start);
     filter.counts.push_back(count);
@@ -75,45 +74,16 @@ const ResizeBuffers::Filter& triangle_filter(Index from, Index to, ResizeBuffers
   return filter;
 }
 
-std::uint8_t rounded(std::int32_t sum) {
-  return static_cast<std::uint8_t>(std::clamp((sum + (1 << (kPrecisionBits - 1))) >> kPrecisionBits, 0, 255));
-}
-
 void set_width(const Image& image, Index width, ResizeBuffers& buffers, Image& result) {
-  const ResizeBuffers::Filter& filter = triangle_filter(image.width, width, buffers);
+  const ResizeFilter& filter = triangle_filter(image.width, width, buffers);
   set_size(result, image.height, width);
-  std::uint8_t* out = result.rgb.data();
-  for (Index row = 0; row < image.height; ++row) {
-    const std::uint8_t* in = image.rgb.data() + row * image.width * kChannels;
-    for (Index column = 0; column < width; ++column) {
-      const std::int32_t* weights = filter.weights.data() + column * filter.taps;
-      const std::uint8_t* pixel = in + filter.starts[column] * kChannels;
-      std::int32_t red = 0, green = 0, blue = 0;
-      for (Index t = 0; t < filter.counts[column]; ++t, pixel += kChannels) {
-        red += weights[t] * pixel[0];
-        green += weights[t] * pixel[1];
-        blue += weights[t] * pixel[2];
-      }
-      *out++ = rounded(red), *out++ = rounded(green), *out++ = rounded(blue);
-    }
-  }
+  filter_width(filter, image.rgb.data(), image.height, image.width, width, result.rgb.data(), buffers.width);
 }
 
 void set_height(const Image& image, Index height, ResizeBuffers& buffers, Image& result) {
-  const ResizeBuffers::Filter& filter = triangle_filter(image.height, height, buffers);
-  const Index row_size = image.width * kChannels;
+  const ResizeFilter& filter = triangle_filter(image.height, height, buffers);
   set_size(result, height, image.width);
-  std::vector<std::int32_t>& sums = buffers.sums;
-  sums.resize(static_cast<std::size_t>(row_size));
-  for (Index row = 0; row < height; ++row) {
-    std::fill(sums.begin(), sums.end(), 0);
-    for (Index t = 0; t < filter.counts[row]; ++t) {
-      const std::int32_t weight = filter.weights[row * filter.taps + t];
-      const std::uint8_t* in = image.rgb.data() + (filter.starts[row] + t) * row_size;
-      for (Index i = 0; i < row_size; ++i) sums[i] += weight * in[i];
-    }
-    std::transform(sums.begin(), sums.end(), result.rgb.begin() + row * row_size, rounded);
-  }
+  filter_height(filter, image.rgb.data(), image.width * kChannels, height, result.rgb.data());
 }
 
 }  // namespace

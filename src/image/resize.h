@@ -4,6 +4,7 @@
 
 #include "base/enum_names.h"
 #include "image/image.h"
+#include "image/resize_filter.h"
 
 namespace svnet {
 
@@ -23,17 +24,10 @@ Interpolation interpolation_named(std::string_view name);
 
 /// What resizing keeps between calls, so that later calls of the same sizes allocate nothing.
 struct ResizeBuffers {
-  /// A filter along one axis: target[i] = Σ weights[i * taps + t] · source[starts[i] + t] over t < counts[i]. Weights
-  /// are in units of 2^-22 and add up to about 1.
-  struct Filter {
-    Index taps = 0;
-    std::vector<Index> starts{}, counts{};
-    std::vector<std::int32_t> weights{};
-  };
-  Filter filter{};
+  ResizeFilter filter{};
+  WidthBuffers width{};
   std::vector<Index> rows{}, columns{};  // of the nearest pixels
   std::vector<double> taps{};            // of one pixel
-  std::vector<std::int32_t> sums{};      // of one row
   Image between{}, result{};
 };
 

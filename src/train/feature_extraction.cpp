@@ -1,9 +1,7 @@
 #include "train/feature_extraction.h"
 
 #include <algorithm>
-#include <future>
 
-#include "base/finite.h"
 #include "base/parallel.h"
 #include "base/sha256.h"
 #include "base/text.h"
@@ -74,53 +72,6 @@ FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string
   return origin;
 }
 
-std::vector<float> extracted(const Extraction& e, const Messages& messages, Communicator& communicator) {
-  std::vector<float> rows(static_cast<std::size_t>(e.count * e.dimension));
-  // Shares are whole batches, as they would be without a communicator.
-  const Share share = share_of(communicator, 0, static_cast<std::uint64_t>((e.count + e.batch - 1) / e.batch));
-  const Index made = static_cast<Index>(e.made.size()) / e.dimension;
-  check((made == 0 && !e.keep) || communicator.size() == 1, "[features] several processes keep no rows");
-  std::ranges::copy(e.made, rows.begin());
-  const Index first = std::max(static_cast<Index>(share.first) * e.batch, made);
-  const Index last = std::min(e.count, static_cast<Index>(share.last) * e.batch);
-  const auto keep = [&](Index end) {
-    if (e.keep) e.keep(std::span(rows).first(static_cast<std::size_t>(end * e.dimension)));
-  };
-  double kept_seconds = 0;
-  Progress progress(messages, "features of " + e.network, std::max<Index>(last - first, 0));
-  // The network has the shared pool. The future comes last: it waits for what the readers still do.
-  Parallel readers(Parallel::shared().threads());
-  const auto launch = readers.threads() > 1 ? std::launch::async : std::launch::deferred;
-  std::future<Tensor> next;
-  const auto prepare_from = [&](Index begin) {
-    next = std::async(launch, [&, begin] { return e.prepared(begin, std::min(begin + e.batch, last), readers); });
-  };
-  if (first < last) prepare_from(first);
-  for (Index begin = first; begin < last; begin += e.batch) {
-    const Index size = std::min(e.batch, last - begin);
-    const Tensor batch = next.get();
-    if (begin + e.batch < last) prepare_from(begin + e.batch);
-    const Tensor values = e.run(batch);
-    if (const auto bad = first_not_finite(values.values<float>()))
-      fail("[", e.network, "] a feature of ", e.name(begin + static_cast<Index>(*bad) / e.dimension),
-           " is not finite: the weights do not fit this network");
-    std::copy_n(values.data<float>(), values.size(), rows.data() + begin * e.dimension);
-    try {
-      progress.update(begin + size - first);
-    } catch (...) {
-      keep(begin + size);
-      throw;
-    }
-    constexpr double kSeconds = 60;
-    if (progress.seconds() - kept_seconds > kSeconds && begin + size < last) {
-      keep(begin + size);
-      kept_seconds = progress.seconds();
-    }
-  }
-  communicator.all_reduce(rows);
-  return rows;
-}
-
 namespace {
 
 /// The values of the first views in a snapshot; none if it is not of these features.
@@ -156,6 +107,7 @@ void write_snapshot(const std::filesystem::path& snapshot, const Features& featu
 
 Features extract_features(const models::Backbone& backbone, const ViewDataset& dataset, const FeaturesOrigin& origin,
                           const Messages& messages, Communicator& communicator, const std::filesystem::path& snapshot) {
+  constexpr Index kBatch = 16;
   const bool keeps = !snapshot.empty() && communicator.size() == 1;
   Features features{origin, static_cast<Index>(dataset.views.size()), backbone.dimension(), {}, {}, {}};
   for (const View& view : dataset.views) {
@@ -168,6 +120,8 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
   features.values = extracted({.network = backbone.kind().name,
                                .count = features.count,
                                .dimension = features.dimension,
+                               .batch = kBatch,
+                               .memory = backbone.network().arena_size(kBatch),
                                .prepared =
                                    [&](Index begin, Index end, Parallel& parallel) {
                                      return prepared_batch(backbone.preprocessing(), dataset, begin, end, parallel);

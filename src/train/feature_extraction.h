@@ -1,5 +1,5 @@
 #pragma once
-#include <functional>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -9,13 +9,14 @@
 #include "data/view_dataset.h"
 #include "io/views/features_file.h"
 #include "models/backbone.h"
+#include "train/extraction.h"
 
 namespace svnet::train {
 
-/// Returns the features of every view of the dataset, in its order, with `origin` copied into them. While a batch runs
-/// through the backbone, other threads read and prepare the images of the next one; a single thread does both in turn.
-/// The processes of the communicator share the batches, and each gets all features. The bits do not depend on
-/// the number of threads and processes, or on the images that share a batch.
+/// Returns the features of every view of the dataset, in its order, with `origin` copied into them. The threads decode
+/// images and run the backbone as train/extraction.h says. The processes of the communicator share the images, and each
+/// gets all features. The bits do not depend on the number of threads and processes, or on the images that share a
+/// batch.
 ///
 /// With `snapshot`, a single process keeps the views so far in this file, as features of the first views, about once a
 /// minute, and if messages.progress throws. It goes on from the file if it is of the same origin and views.
@@ -25,28 +26,6 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
 
 /// Writes the features to `path` and removes the snapshot beside it (io/files/snapshot_path.h).
 void write_made_features(const std::filesystem::path& path, const Features& features);
-
-/// How numbered inputs become rows of values.
-struct Extraction {
-  std::string network;  ///< its name, for messages
-  Index count = 0;      ///< of the inputs
-  Index dimension = 0;  ///< of a row
-  Index batch = 16;     ///< inputs that share a run
-  /// The inputs [begin, end) as a batch. Is called in another thread than `run`.
-  std::function<Tensor(Index begin, Index end, Parallel& parallel)> prepared;
-  /// The rows of a batch, (inputs, dimension) in order.
-  std::function<Tensor(const Tensor& batch)> run;
-  /// What an input is called in the message that a value is not finite.
-  std::function<std::string(Index input)> name;
-  /// The rows of the first inputs, made before. Of a single process only.
-  std::vector<float> made{};
-  /// Is given the rows of the first inputs about once a minute, and if messages.progress throws. Of a single process
-  /// only.
-  std::function<void(std::span<const float> rows)> keep{};
-};
-
-/// The rows of all inputs, (count, dimension), as extract_features makes them.
-std::vector<float> extracted(const Extraction& extraction, const Messages& messages, Communicator& communicator);
 
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const models::Preprocessing& preprocessing);

@@ -53,6 +53,8 @@ Features extract_turned_features(const models::Backbone& backbone, const ViewDat
                  .count = features.count,
                  .dimension = features.dimension,
                  .batch = 2 * frame::kTurns,
+                 .unit = frame::kTurns,
+                 .memory = network.arena_size(2 * frame::kTurns),
                  .prepared = [&](Index begin, Index end,
                                  Parallel& parallel) { return prepared_turns(how, dataset, begin, end, parallel); },
                  .run = [&](const Tensor& batch) { return network.run({batch}); },

@@ -23,3 +23,15 @@ TEST_CASE("SHA-256 does not depend on how the bytes are split") {
 TEST_CASE("a hash of fields depends on where each field ends") {
   CHECK(Sha256().update_field("ab").update_field("c").hex() != Sha256().update_field("a").update_field("bc").hex());
 }
+
+TEST_CASE("the SHA extensions give the bits of the plain rounds") {
+  std::array<std::uint8_t, 64> block{};
+  svnet::Sha256State fast{1, 2, 3, 4, 5, 6, 7, 8}, plain = fast;
+  std::uint32_t random = 1;
+  for (int i = 0; i < 1000; ++i) {
+    for (auto& byte : block) byte = static_cast<std::uint8_t>((random = 1664525 * random + 1013904223) >> 24);
+    svnet::sha256_block(fast, block.data());
+    svnet::sha256_block_reference(plain, block.data());
+    REQUIRE(fast == plain);
+  }
+}

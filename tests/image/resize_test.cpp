@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "base/error.h"
+#include "base/instruction_sets.h"
 #include "base/sha256.h"
 
 using namespace svnet;
@@ -39,16 +40,54 @@ TEST_CASE("resized gives Pillow's bits") {
     words >> kind >> from_height >> from_width >> height >> width >> interpolation >> sha256;
     if (kind != "resize") continue;
     CAPTURE(line);
-    const Image image = resized(noise(from_height, from_width), height, width, interpolation_named(interpolation));
-    CHECK(image.height == height);
-    CHECK(image.width == width);
     std::vector<std::uint8_t> expected;
     for (int value; words >> value;) expected.push_back(static_cast<std::uint8_t>(value));
-    if (!expected.empty()) CHECK(image.rgb == expected);
-    CHECK(Sha256().update(image.rgb.data(), image.rgb.size()).hex() == sha256);
+    test::for_instruction_sets([&](const std::string& set) {
+      CAPTURE(set);
+      const Image image = resized(noise(from_height, from_width), height, width, interpolation_named(interpolation));
+      CHECK(image.height == height);
+      CHECK(image.width == width);
+      if (!expected.empty()) CHECK(image.rgb == expected);
+      CHECK(Sha256().update(image.rgb.data(), image.rgb.size()).hex() == sha256);
+    });
     ++cases;
   }
   CHECK(cases == 24);
+}
+
+TEST_CASE("vectors filter as the plain loops do, at odd sizes and with any weights") {
+  std::uint32_t random = 1;
+  const auto next = [&](std::uint32_t below) {
+    return static_cast<Index>(((random = 1664525 * random + 1013904223) >> 8) % below);
+  };
+  for (int i = 0; i < 300; ++i) {
+    const Index from = 1 + next(70), to = 1 + next(40), rows = 1 + next(9);
+    ResizeFilter filter;
+    filter.taps = std::min<Index>(from, 1 + next(20));
+    for (Index k = 0; k < to; ++k) {
+      const Index count = 1 + next(static_cast<std::uint32_t>(filter.taps));
+      filter.counts.push_back(count);
+      filter.starts.push_back(next(static_cast<std::uint32_t>(from - count + 1)));
+      for (Index t = 0; t < filter.taps; ++t)  // also one weight of 1, and sums a little above it
+        filter.weights.push_back(static_cast<std::int32_t>(t < count ? (1 << kFilterBits) / count + next(2) : 0));
+    }
+    const Image image = noise(rows, from);
+    std::vector<std::uint8_t> plain(static_cast<std::size_t>(rows * to * 3)), fast;
+    filter_width_reference(filter, image.rgb.data(), rows, from, to, plain.data());
+    const Image turned = noise(from, rows);
+    std::vector<std::uint8_t> plain_height(plain.size()), fast_height;
+    filter_height_reference(filter, turned.rgb.data(), 3 * rows, to, plain_height.data());
+    test::for_instruction_sets([&](const std::string& set) {
+      CAPTURE(set, from, to, rows, filter.taps);
+      fast.assign(plain.size(), 1);
+      WidthBuffers buffers;
+      filter_width(filter, image.rgb.data(), rows, from, to, fast.data(), buffers);
+      CHECK(fast == plain);
+      fast_height.assign(plain.size(), 1);
+      filter_height(filter, turned.rgb.data(), 3 * rows, to, fast_height.data());
+      CHECK(fast_height == plain_height);
+    });
+  }
 }
 
 TEST_CASE("an image of one colour keeps it at every size") {

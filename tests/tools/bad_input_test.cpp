@@ -139,6 +139,9 @@ const Row kRows[] = {
      "bad/cone/1/1/45_0.png: the same view as 45_0.jpg; remove one of them"},
     {"damaged image in a dataset", "cp -r data bad; head -c 90 top.png >bad/cone/1/1/45_0.png", FEATURES_OF("bad"),
      "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG image"},
+    {"two damaged images, each for another thread",
+     "cp -r data bad; for i in cone/1/1/45_0 ring/0/1/45_0; do head -c 90 top.png >bad/$i.png; done",
+     "SVNET_THREADS=4 " FEATURES_OF("bad"), "bad/cone/1/1/45_0.png: is a damaged or incomplete PNG image"},
     // features and scores
     {"missing features", "", SCORE "none.h5", "none.h5: no such file"},
     {"features cut short", "head -c 3000 features.h5 >bad.h5", SCORE "bad.h5",
