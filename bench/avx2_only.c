@@ -1,48 +1,63 @@
-// A library for LD_PRELOAD: programs believe that the processor has no AVX-512, AVX-VNNI and AMX. So a peer that chooses its
-// kernels by CPUID can be timed as on a processor with AVX2. The kernel makes CPUID fault (arch_prctl, Linux on x86-64, on
-// processors with CPUID faulting), and the handler of that signal answers it. Without that the process exits with status
-// 77: a peer that is not capped must not be taken for one that is.
+// A library to preload: programs that ask the processor what it can do learn of AVX2 and FMA, but not of AVX-512, AMX or
+// VNNI. Libraries that have no switch of their own are so compared as they run on a computer with AVX2.
 //
-//     cc -O2 -shared -fPIC -o avx2_only.so bench/avx2_only.c
-//     LD_PRELOAD=$PWD/avx2_only.so python ...
+//     cc -shared -fPIC -O1 -o avx2_only.so bench/avx2_only.c && LD_PRELOAD=$PWD/avx2_only.so python3 ...
+//
+// Linux on x86-64 with CPUID faulting (cpuid_fault in /proc/cpuinfo): the instruction cpuid raises SIGSEGV, and the
+// handler answers for it. Where that cannot be had, the program ends with status 1 before it starts.
 #define _GNU_SOURCE
-#include <cpuid.h>
 #include <signal.h>
+#include <stdint.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 #include <sys/syscall.h>
 #include <ucontext.h>
 #include <unistd.h>
 
-#define ARCH_CPUID_SET 0x1012
+#define ARCH_SET_CPUID 0x1012
 
-static int allow_cpuid(int allowed) { return (int)syscall(SYS_arch_prctl, ARCH_CPUID_SET, (long)allowed); }
+static void hide(uint32_t* word, const int* bits, size_t count) {
+  for (size_t i = 0; i < count; ++i) *word &= ~(UINT32_C(1) << bits[i]);
+}
+#define HIDE(word, ...) hide(&(word), (const int[]){__VA_ARGS__}, sizeof((const int[]){__VA_ARGS__}) / sizeof(int))
 
-static void answer(int signal_number, siginfo_t* info, void* context) {
+/// What cpuid leaves in eax, ebx, ecx and edx.
+static void capped_cpuid(uint32_t leaf, uint32_t part, uint32_t out[4]) {
+  syscall(SYS_arch_prctl, ARCH_SET_CPUID, 1);
+  __asm__ volatile("cpuid" : "=a"(out[0]), "=b"(out[1]), "=c"(out[2]), "=d"(out[3]) : "a"(leaf), "c"(part));
+  syscall(SYS_arch_prctl, ARCH_SET_CPUID, 0);
+  if (leaf == 7 && part == 0) {
+    HIDE(out[1], 16, 17, 21, 26, 27, 28, 30, 31);  // AVX-512: F, DQ, IFMA, PF, ER, CD, BW, VL
+    HIDE(out[2], 1, 6, 11, 12, 14);                // AVX-512: VBMI, VBMI2, VNNI, BITALG, VPOPCNTDQ
+    HIDE(out[3], 2, 3, 8, 22, 23, 24, 25);         // AVX-512: 4VNNIW, 4FMAPS, VP2INTERSECT, FP16; AMX
+  } else if (leaf == 7 && part >= 1) {
+    memset(out, 0, 4 * sizeof(uint32_t));  // AVX-VNNI, AVX-512 BF16, what came later
+  } else if (leaf == 13 && part == 0) {
+    HIDE(out[0], 5, 6, 7, 17, 18);  // the state of AVX-512 and AMX
+  }
+}
+
+static void answer(int signal, siginfo_t* info, void* given) {
   (void)info;
-  greg_t* registers = ((ucontext_t*)context)->uc_mcontext.gregs;
-  const unsigned char* instruction = (const unsigned char*)registers[REG_RIP];
-  if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // another fault: happens again, without this handler
-    signal(signal_number, SIG_DFL);
+  greg_t* const registers = ((ucontext_t*)given)->uc_mcontext.gregs;
+  const uint8_t* const instruction = (const uint8_t*)registers[REG_RIP];
+  if (instruction[0] != 0x0f || instruction[1] != 0xa2) {  // not cpuid: a fault of the program
+    struct sigaction usual = {.sa_handler = SIG_DFL};
+    sigaction(signal, &usual, NULL);
     return;
   }
-  const unsigned leaf = (unsigned)registers[REG_RAX], part = (unsigned)registers[REG_RCX];
-  unsigned a, b, c, d;
-  allow_cpuid(1);
-  __cpuid_count(leaf, part, a, b, c, d);
-  allow_cpuid(0);
-  if (leaf == 7 && part == 0) {
-    b &= ~(1u << 16 | 1u << 17 | 1u << 21 | 1u << 26 | 1u << 27 | 1u << 28 | 1u << 30 | 1u << 31);
-    c &= ~(1u << 1 | 1u << 6 | 1u << 11 | 1u << 12 | 1u << 14);
-    d &= ~(1u << 2 | 1u << 3 | 1u << 8 | 1u << 22 | 1u << 23 | 1u << 24 | 1u << 25);
-  }
-  if (leaf == 7 && part == 1) a &= ~(1u << 4 | 1u << 5 | 1u << 21 | 1u << 23);
-  registers[REG_RAX] = a, registers[REG_RBX] = b, registers[REG_RCX] = c, registers[REG_RDX] = d;
+  uint32_t out[4];
+  capped_cpuid((uint32_t)registers[REG_RAX], (uint32_t)registers[REG_RCX], out);
+  registers[REG_RAX] = out[0], registers[REG_RBX] = out[1], registers[REG_RCX] = out[2], registers[REG_RDX] = out[3];
   registers[REG_RIP] += 2;
 }
 
-__attribute__((constructor)) static void start(void) {
-  const struct sigaction action = {.sa_sigaction = answer, .sa_flags = SA_SIGINFO | SA_NODEFER};
-  if (sigaction(SIGSEGV, &action, NULL) == 0 && allow_cpuid(0) == 0) return;
-  fputs("avx2_only: this machine cannot make CPUID fault\n", stderr);
-  _exit(77);
+__attribute__((constructor)) static void begin(void) {
+  struct sigaction action = {.sa_sigaction = answer, .sa_flags = SA_SIGINFO | SA_NODEFER};
+  sigaction(SIGSEGV, &action, NULL);
+  if (syscall(SYS_arch_prctl, ARCH_SET_CPUID, 0) != 0) {
+    fprintf(stderr, "avx2_only: this processor or system does not let cpuid fault\n");
+    exit(1);
+  }
 }
