@@ -49,12 +49,12 @@ Index packed_scratch(Index rows, Index depth, Precision precision) {
   return precision == Precision::bf16 ? rows * packed_row_stride(pairs(depth)) : 0;
 }
 
-Index packed_most_rows(Index depth) { return std::clamp<Index>(72 * 1024 / std::max<Index>(depth, 1), 24, 96); }
+Index packed_most_rows(Index depth) { return std::clamp<Index>(144 * 1024 / std::max<Index>(depth, 1), 24, 192); }
 
 Index packed_block_rows(Index rows, Index depth) {
   const Index most = packed_most_rows(depth);
   // A multiple of four blocks, so that two or four threads finish at the same time.
-  const Index least = (rows + most - 1) / most, whole = (least + 3) / 4 * 4;
+  const Index least = (rows + most - 1) / most, whole = (least + 1) / 2 * 2;
   const Index blocks = rows >= 12 * whole ? whole : std::max(least, rows / 12);
   return (rows + std::max<Index>(blocks, 1) - 1) / std::max<Index>(blocks, 1);
 }
