@@ -48,6 +48,10 @@ struct Extraction {
 /// The rows of all inputs, (count, dimension), as extract_features makes them.
 std::vector<float> extracted(const Extraction& extraction, const Messages& messages, Communicator& communicator);
 
+/// The views [begin, end) of a dataset as a batch (N, H, W, 3).
+Tensor prepared_views(const models::Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
+                      Parallel& parallel);
+
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const models::Preprocessing& preprocessing);
 
@@ -66,8 +70,8 @@ BackboneWithOrigin backbone_from_folder(const std::string& name, const std::stri
 /// Throws Error if `folder` is given but holds no weights of the backbone, and none are built in.
 void check_weights(const std::string& name, const std::filesystem::path& folder);
 
-/// The origin of the features of a backbone and of images. If products are in bf16, the preprocessing says so, and the
-/// fingerprint is another.
+/// The origin of the features of a backbone and of images. If products are in bf16 or int8, the preprocessing says so,
+/// with the fingerprint of the ranges of int8, and the fingerprint is another.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
 
 }  // namespace svnet::train

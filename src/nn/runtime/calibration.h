@@ -1,4 +1,8 @@
 #pragma once
+#include <map>
+#include <string>
+#include <vector>
+
 #include "nn/runtime/activation_ranges.h"
 #include "nn/runtime/inference.h"
 
@@ -9,18 +13,24 @@ class Calibration {
  public:
   Calibration(const Graph& graph, const Parameters& parameters, NodeId output);
 
-  /// Runs a batch. Throws Error if it is empty, or if it or an activation is not finite.
+  /// Runs a batch. Throws Error if it is empty, or if it is not finite.
   void add(const Tensor& batch);
 
-  /// Over all batches so far. Throws Error if there was none.
+  /// Over all batches so far. Throws Error if there was none, and if an activation was not finite.
   ActivationRanges ranges() const;
 
  private:
-  struct Sums;
+  /// Of the channels that a layer multiplies.
+  struct Seen {
+    std::vector<float> low{}, high{};
+    std::vector<double> sum{};
+    Index rows = 0;
+
+    void add(Index count, const kernels::PanelRows& a, Index channels);
+  };
 
   Inference network_;
-  std::map<std::string, kernels::ChannelRanges> sums_{};  // `mean` holds sums
-  std::map<std::string, Index> rows_{};                   // that were summed
+  std::map<std::string, Seen> seen_{};
 };
 
 }  // namespace svnet

@@ -61,8 +61,8 @@ class Compiler {
   Product product(NodeId id, Index channels) const {
     Product result{.precision = precision_, .layer = node(id).name};
     if (precision_ != Precision::int8) return result;
-    check(ranges_ != nullptr, "[precision] int8 needs the ranges of activations, which calibration on pictures finds: "
-          "svnet-features --precision int8 does it; choose f32 or bf16 elsewhere");
+    check(ranges_ != nullptr, "[precision] int8 needs the ranges of activations. svnet-features and svnet-train find them on pictures, and "
+          "a model that was trained in int8 has them; choose f32 or bf16 for others");
     const auto found = ranges_->find(result.layer);
     check(found != ranges_->end(), "[precision] int8: the ranges of activations lack layer ", result.layer,
           ": they are of another network");

@@ -67,8 +67,7 @@ class Inference::ArenaLease {
 };
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options)
-    : precision_(options.precision),
-      ranges_(options.ranges),
+    : options_(options),
       program_(runtime::compile(graph, parameters, output, options)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}

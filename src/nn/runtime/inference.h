@@ -38,9 +38,8 @@ class Inference {
   const std::vector<Shape>& input_shapes() const { return program_.inputs; }  ///< without the batch
   const Shape& output_shape() const { return program_.output_shape; }         ///< without the batch
 
-  runtime::Precision precision() const { return precision_; }
-  /// As the options gave them.
-  const std::shared_ptr<const ActivationRanges>& ranges() const { return ranges_; }
+  const InferenceOptions& options() const { return options_; }
+  runtime::Precision precision() const { return options_.precision; }
 
   /// The output of a batch. Inputs are f32, in the graph's order. Throws Error if shapes do not fit.
   Tensor run(const std::vector<Tensor>& inputs) const;
@@ -76,8 +75,7 @@ class Inference {
   /// The elements of the inputs. Throws Error if shapes do not fit.
   std::vector<const float*> checked(const std::vector<Tensor>& inputs) const;
 
-  runtime::Precision precision_;
-  std::shared_ptr<const ActivationRanges> ranges_;
+  InferenceOptions options_;
   runtime::Program program_;
   runtime::MemoryPlan memory_;
   Index group_;

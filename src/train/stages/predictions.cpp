@@ -20,7 +20,8 @@ std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features,
   return std::make_unique<ImageInputs>(
       run.dataset, model.preprocessing,
       std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
-                                  model.backbone_graph.find(model.backbone_output), run.inference),
+                                  model.backbone_graph.find(model.backbone_output),
+                                  inference_options(model, run.inference)),
       ImageInputs::Options{.orientations = model.symmetries, .flat = true});
 }
 

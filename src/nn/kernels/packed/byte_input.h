@@ -9,8 +9,7 @@ namespace svnet::kernels {
 
 /// What a channel of the left operand of a product has been over pictures: its range and its mean.
 struct ChannelRanges {
-  std::vector<float> low{}, high{};
-  std::vector<double> mean{};
+  std::vector<float> low{}, high{}, mean{};
 
   bool operator==(const ChannelRanges&) const = default;
 };

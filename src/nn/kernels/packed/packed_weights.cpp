@@ -71,7 +71,7 @@ PackedWeights packed_int8_weights(Index depth, Index n, const float* w, const fl
           std::clamp<double>(std::nearbyint(exact), -kLargestByteWeight, kLargestByteWeight));
       bytes[((column / kPanel * rows + i / 4) * kPanel + column % kPanel) * 4 + i % 4] = rounded;
       start -= rounded * static_cast<std::int64_t>(zero[i]);
-      drift += (rounded - exact) * ranges.mean[static_cast<std::size_t>(i % channels)] * factor[i];
+      drift += (rounded - exact) * double{ranges.mean[static_cast<std::size_t>(i % channels)]} * double{factor[i]};
     }
     packed.start[static_cast<std::size_t>(column)] = static_cast<std::int32_t>(start);
     packed.scale.get()[column] = scale;
