@@ -1,11 +1,13 @@
 // backbone/<model>/batch:<n>: one inference of a batch up to the pooled output, with seeded random weights.
 // backbone/<model>/int8/batch:<n>: the same with products in int8, calibrated on noise.
+// SVNET_MAX_ISA limits the instruction set.
 // Counters: `flops` and `bytes` of one iteration, as Inference::report counts them.
 #include <map>
 #include <memory>
 
 #include <benchmark/benchmark.h>
 
+#include "base/cpu.h"
 #include "models/backbone.h"
 
 namespace svnet {
@@ -53,6 +55,7 @@ void backbone(benchmark::State& state, const std::string& name, bool int8) {
 }
 
 const bool kRegistered = [] {
+  cap_from_environment();
   for (const auto& kind : models::backbone_kinds())
     for (const bool int8 : {false, true})
       benchmark::RegisterBenchmark(("backbone/" + kind.name + (int8 ? "/int8" : "")).c_str(), backbone, kind.name, int8)

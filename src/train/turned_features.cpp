@@ -34,8 +34,7 @@ Tensor prepared_turns(const models::Preprocessing& how, const ViewDataset& datas
 }  // namespace
 
 Features extract_turned_features(const models::Backbone& backbone, const ViewDataset& dataset,
-                                 const FeaturesOrigin& origin, const Messages& messages,
-                                 Communicator& communicator) {
+                                 const FeaturesOrigin& origin, const Messages& messages, Communicator& communicator) {
   const models::Preprocessing& how = backbone.preprocessing();
   check(how.height == how.width, "[turned] images of ", how.height, "x", how.width,
         " cannot be turned; only square ones can");

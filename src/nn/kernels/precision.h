@@ -3,8 +3,8 @@
 
 namespace svnet::kernels {
 
-/// What both operands of the products of compiled inference are rounded to. Everything between layers is f32, and so are
-/// sums, but those of int8 are exact.
+/// What both operands of the products of compiled inference are rounded to. Everything between layers is f32, and so
+/// are sums, but those of int8 are exact.
 enum class Precision { f32, bf16, int8 };
 
 /// Throws Error if the processor, or the instruction set that kernels are capped at, has no such products.

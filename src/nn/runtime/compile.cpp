@@ -61,7 +61,8 @@ class Compiler {
   Product product(NodeId id, Index channels) const {
     Product result{.precision = precision_, .layer = node(id).name};
     if (precision_ != Precision::int8) return result;
-    check(ranges_ != nullptr, "[precision] int8 needs the ranges of activations. svnet-features and svnet-train find them on pictures, and "
+    check(ranges_ != nullptr,
+          "[precision] int8 needs the ranges of activations. svnet-features and svnet-train find them on pictures, and "
           "a model that was trained in int8 has them; choose f32 or bf16 for others");
     const auto found = ranges_->find(result.layer);
     check(found != ranges_->end(), "[precision] int8: the ranges of activations lack layer ", result.layer,
@@ -186,15 +187,13 @@ class Compiler {
     const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, pointwise);
     const Window window = fusion_.window(first, d);
     if (!fusion_.fused(from))
-      return push(f.last,
-                  separable_step(window, depthwise, kernel, own_bias, f.finish, product(f.main, window.c)),
+      return push(f.last, separable_step(window, depthwise, kernel, own_bias, f.finish, product(f.main, window.c)),
                   inputs(f, from));
     const auto& e = *node(from).as<Conv2dLayer>();
-    const ExpansionPart expansion{
-        .kernel = get(from, "kernel"),
-        .bias = bias(from, e),
-        .clamp = *kernels::clamp_of(e.activation),
-        .product = product(from, channels(fusion_.source(from)))};
+    const ExpansionPart expansion{.kernel = get(from, "kernel"),
+                                  .bias = bias(from, e),
+                                  .clamp = *kernels::clamp_of(e.activation),
+                                  .product = product(from, channels(fusion_.source(from)))};
     push(f.last,
          expanded_separable_step(window, expansion, depthwise, kernel, own_bias, f.finish, product(f.main, window.c)),
          inputs(f, fusion_.source(from)));
@@ -213,8 +212,7 @@ class Compiler {
                                    product(f.main, window.c)),
            inputs(f, from));
     } else if (fusion_.is_separable(f.main)) {
-      push(f.last,
-           separable_step(window, depthwise, pointwise, own_bias, f.finish, product(f.main, window.c)),
+      push(f.last, separable_step(window, depthwise, pointwise, own_bias, f.finish, product(f.main, window.c)),
            inputs(f, from));
     } else {
       const Window pixel = window_over("runtime", 1, window.oh, window.ow, window.c * l.multiplier, {});
@@ -239,7 +237,8 @@ class Compiler {
     const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, l);
     const bool is_int8 = int8_dense_ && is_rounded(node(f.main).name + "/kernel", kernel.shape());
     push(f.last,
-         is_int8 ? int8_dense_step(kernel, own_bias, f.finish) : dense_step(kernel, own_bias, f.finish, kernels::dense_precision(precision_)),
+         is_int8 ? int8_dense_step(kernel, own_bias, f.finish)
+                 : dense_step(kernel, own_bias, f.finish, kernels::dense_precision(precision_)),
          inputs(f, input(f.main)));
     activate(f.last, rest);
   }

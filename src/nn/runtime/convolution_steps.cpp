@@ -167,10 +167,10 @@ class Separable : public Step {
 class ExpandedSeparable : public Separable {
  public:
   ExpandedSeparable(const Window& window, const ExpansionPart& expansion, const DepthwisePart& depthwise,
-                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish, const Product& product)
+                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish,
+                    const Product& product)
       : Separable(window, depthwise, pointwise, bias, finish, product),
-        expansion_(
-            weights_of(expansion.product, expansion.kernel.size() / window.c, expansion.kernel, expansion.bias)),
+        expansion_(weights_of(expansion.product, expansion.kernel.size() / window.c, expansion.kernel, expansion.bias)),
         clamp_(expansion.clamp) {}
 
   void run(const StepBuffers& b) const override {

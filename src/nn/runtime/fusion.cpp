@@ -21,7 +21,8 @@ Fusion::Fusion(const Graph& graph, Convolution convolution, bool observable)
     : graph_(graph),
       convolution_(convolution),
       observable_(observable),
-      readers_(graph.nodes().size(), 0), fused_(graph.nodes().size(), false) {
+      readers_(graph.nodes().size(), 0),
+      fused_(graph.nodes().size(), false) {
   for (const auto& node : graph.nodes())
     for (NodeId id : node.inputs) ++readers_[at(id)];
   ++readers_[at(graph.output())];  // the caller
@@ -120,8 +121,8 @@ void Fusion::fuse_inputs(NodeId id) {
 bool Fusion::can_expand(NodeId depthwise) const {
   const NodeId from = source(depthwise);
   const auto* l = node(from).as<Conv2dLayer>();
-  return !observable_ && l != nullptr && only_reader_of(from) && clamp_of(l->activation) &&
-         !is_separable(from) && window(from, *l).reads_in_place() &&
+  return !observable_ && l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
+         window(from, *l).reads_in_place() &&
          kernels::fits_strips(window(depthwise, *node(depthwise).as<DepthwiseConv2dLayer>()));
 }
 

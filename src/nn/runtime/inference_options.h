@@ -22,8 +22,8 @@ struct InferenceOptions {
 };
 
 /// What SVNET_CONVOLUTION and SVNET_PRECISION ask for; the defaults if they are unset or empty. A `precision` that is
-/// not empty, f32, bf16 or int8, is taken instead of SVNET_PRECISION. Throws Error for other words, and if the machine has no
-/// products of that precision. For the edges of programs: everything below them takes InferenceOptions.
+/// not empty, f32, bf16 or int8, is taken instead of SVNET_PRECISION. Throws Error for other words, and if the machine
+/// has no products of that precision. For the edges of programs: everything below them takes InferenceOptions.
 InferenceOptions inference_options_from_environment(const std::string& precision = "");
 
 }  // namespace svnet

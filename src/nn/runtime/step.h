@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "nn/kernels/activation/activation.h"
 #include "nn/kernels/epilogue.h"
-#include "nn/kernels/packed/packed_weights.h"
+#include "nn/kernels/packed/byte_input.h"
 #include "nn/kernels/precision.h"
 #include "nn/kernels/window.h"
 #include "nn/tensor.h"
@@ -24,8 +24,8 @@ struct StepBuffers {
 };
 
 /// Is given the left operand of a product, `channels` wide, in f32. `layer` multiplies it.
-using ProductObserver = std::function<void(const std::string& layer, Index rows, const kernels::PanelRows& a,
-                                           Index channels)>;
+using ProductObserver =
+    std::function<void(const std::string& layer, Index rows, const kernels::PanelRows& a, Index channels)>;
 
 /// One kernel call of a compiled graph, with its weights in the layout of the kernel. Immutable: several threads may
 /// run it at once, each with its own buffers.

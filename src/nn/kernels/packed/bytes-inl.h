@@ -20,7 +20,8 @@ namespace HWY_NAMESPACE {
 HWY_INLINE void store_bytes(PanelVector y, std::uint8_t* to) {
   const PanelTag d;
 #if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-  y = hn::Min(hn::Max(y, hn::Zero(d)), hn::Set(d, 255.0f));  // if one operand is NaN, the instruction returns the second
+  y = hn::Min(hn::Max(y, hn::Zero(d)),
+              hn::Set(d, 255.0f));  // if one operand is NaN, the instruction returns the second
 #if HWY_TARGET <= HWY_AVX3
   _mm_storeu_si128(reinterpret_cast<__m128i*>(to), _mm512_cvtepi32_epi8(_mm512_cvtps_epi32(y.raw)));
 #else

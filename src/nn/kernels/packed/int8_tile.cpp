@@ -1,12 +1,13 @@
 // The register tile of products of bytes (int8_tile.h), for every instruction set but AVX512-VNNI.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/packed/int8_tile.cpp"
+#include "nn/kernels/packed/int8_tile.h"
+
 #include <array>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "nn/kernels/packed/int8_tile.h"
 #include "nn/kernels/packed/panel_vector-inl.h"
 
 HWY_BEFORE_NAMESPACE();

@@ -67,8 +67,8 @@ PackedWeights packed_int8_weights(Index depth, Index n, const float* w, const fl
     double drift = 0;
     for (Index i = 0; scale > 0 && i < depth; ++i) {
       const double exact = weight(i, column) / scale;
-      const auto rounded = static_cast<std::int8_t>(
-          std::clamp<double>(std::nearbyint(exact), -kLargestByteWeight, kLargestByteWeight));
+      const auto rounded =
+          static_cast<std::int8_t>(std::clamp<double>(std::nearbyint(exact), -kLargestByteWeight, kLargestByteWeight));
       bytes[((column / kPanel * rows + i / 4) * kPanel + column % kPanel) * 4 + i % 4] = rounded;
       start -= rounded * static_cast<std::int64_t>(zero[i]);
       drift += (rounded - exact) * double{ranges.mean[static_cast<std::size_t>(i % channels)]} * double{factor[i]};

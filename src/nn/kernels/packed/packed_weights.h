@@ -28,7 +28,6 @@ PackedWeights packed_weights(Index depth, Index n, const float* w, const float* 
 /// In int8, for a left operand within `ranges`, of depth / ranges' channels groups of channels. What an input channel's
 /// bytes are multiplied by goes into its weights, which then are rounded with a scale for each column. The bias takes
 /// away what this rounding adds to a column on average. Throws Error if the depth is larger than kMostByteDepth.
-PackedWeights packed_int8_weights(Index depth, Index n, const float* w, const float* bias,
-                                  const ChannelRanges& ranges);
+PackedWeights packed_int8_weights(Index depth, Index n, const float* w, const float* bias, const ChannelRanges& ranges);
 
 }  // namespace svnet::kernels

@@ -45,8 +45,7 @@ SVNET_VNNI void multiply_vnni_tile(const PanelRows& a, Index depth, const float*
     for (int r = 0; r < kRows; ++r) {
       // Not a fused product and sum: machines without it would give other bits. (Without masks GCC 12 warns of its own
       // header.)
-      __m512 y = _mm512_add_ps(
-          _mm512_mul_ps(_mm512_maskz_cvtepi32_ps(kWholePanel, sum[r][p]), scale), bias);
+      __m512 y = _mm512_add_ps(_mm512_mul_ps(_mm512_maskz_cvtepi32_ps(kWholePanel, sum[r][p]), scale), bias);
       if (finish.residual != nullptr)
         y = _mm512_add_ps(y, _mm512_loadu_ps(finish.residual + r * finish.residual_stride + p * kPanel));
       y = _mm512_maskz_min_ps(kWholePanel, high, _mm512_maskz_max_ps(kWholePanel, low, y));

@@ -86,8 +86,8 @@ HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const Depth
     });
     add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
     unrolled<kCount>([&](auto p) HWY_ATTR {
-      unrolled<kVectorsPerPanel>(
-          [&](auto v) HWY_ATTR { store_result(sum[p][v], limits, y + p * kPanel + v * kLanes); });
+      unrolled<kVectorsPerPanel>([&](auto v)
+                                     HWY_ATTR { store_result(sum[p][v], limits, y + p * kPanel + v * kLanes); });
     });
   }
 }
@@ -251,7 +251,8 @@ HWY_EXPORT(depthwise_bytes);
 
 DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const float* bias) {
   const Index padded = panels(c) * kPanel;
-  DepthwiseTaps taps{.channels = c, .count = kh * kw, .taps = aligned_floats(kh * kw * padded), .bias = aligned_floats(padded)};
+  DepthwiseTaps taps{
+      .channels = c, .count = kh * kw, .taps = aligned_floats(kh * kw * padded), .bias = aligned_floats(padded)};
   std::fill_n(taps.taps.get(), kh * kw * padded, 0.0f);
   std::fill_n(taps.bias.get(), padded, 0.0f);
   for (Index tap = 0; tap < kh * kw; ++tap) std::copy_n(w + tap * c, c, taps.taps.get() + tap * padded);
@@ -262,7 +263,8 @@ DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const 
 void round_taps(const ByteInput& input, DepthwiseTaps& taps) {
   const Index padded = panels(taps.channels) * kPanel;
   for (Index i = 0; i < taps.count * padded; ++i) taps.taps.get()[i] *= input.factor.get()[i % padded];
-  for (Index c = 0; c < padded; ++c) taps.bias.get()[c] = taps.bias.get()[c] * input.factor.get()[c] + input.zero.get()[c];
+  for (Index c = 0; c < padded; ++c)
+    taps.bias.get()[c] = taps.bias.get()[c] * input.factor.get()[c] + input.zero.get()[c];
 }
 
 void depthwise_rows(const Window& window, const DepthwiseTaps& taps, const float* x, Index begin, Index end, float* y) {

@@ -27,7 +27,8 @@ void depthwise_rows(const Window& window, const DepthwiseTaps& taps, const float
 
 /// y = finish(clamp(depthwise(relu?(x)) + bias) · pointwise + bias). Both convolutions run over blocks of positions
 /// that stay in L2, so the intermediate image is never written to memory. Requires that x may be read one vector past
-/// its end; if the pointwise half is in int8, that round_taps was called with its input. scratch holds separable_scratch floats.
+/// its end; if the pointwise half is in int8, that round_taps was called with its input. scratch holds
+/// separable_scratch floats.
 void separable_conv2d(Parallel& parallel, const Window& window, const float* x, const DepthwiseTaps& depthwise,
                       const PackedWeights& pointwise, const PackedFinish& finish, float* y, float* scratch);
 Index separable_scratch(const Window& window, int threads, Precision precision = Precision::f32);
