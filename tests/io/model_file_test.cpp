@@ -279,8 +279,7 @@ TEST_CASE("a model keeps the ranges of a backbone that multiplies in int8, and d
   ActivationRanges broken = *model.backbone_ranges;
   broken.begin()->second.high[0] = INFINITY;
   model.backbone_ranges = std::make_shared<ActivationRanges>(broken);
-  write_model(bad, model);
-  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("are not finite"));
+  CHECK_THROWS_WITH(write_model(bad, model), Catch::StartsWith(bad.string()) && Catch::Contains("is not finite at 0"));
 }
 
 TEST_CASE("a damaged model in a frame with turns is refused") {

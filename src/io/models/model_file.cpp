@@ -4,7 +4,6 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "base/finite.h"
 #include "frame/frame_inputs.h"
 #include "frame/next_inputs.h"
 #include "io/models/graph_json.h"
@@ -78,7 +77,6 @@ ActivationRanges ranges_of(const TensorFile& file, const json& described) {
     check(channels > 0, "ranges: layer '", layer, "' has ", channels, " channels");
     const auto values = [&](const char* which) {
       const auto from = file.at("ranges/" + layer + "/" + which, {channels}).values<float>();
-      check(!first_not_finite(from), "ranges: those of layer '", layer, "' are not finite");
       return std::vector<float>(from.begin(), from.end());
     };
     ranges[layer] = {values("low"), values("high"), values("mean")};
