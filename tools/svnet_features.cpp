@@ -7,6 +7,7 @@
 #include "io/views/dataset_folder.h"
 #include "io/views/dataset_notes.h"
 #include "mpi/mpi_communicator.h"
+#include "train/calibration.h"
 #include "train/feature_extraction.h"
 
 namespace svnet {
@@ -54,14 +55,22 @@ int run(int argc, char** argv, Communicator& communicator) {
       .one_of(names_of<ExifOrientation>())
       .shows_default();
   command.add_precision();
+  Index calibration = train::kCalibrationImages;
+  command
+      .add("--calibration", calibration,
+           "With --precision int8: images of the dataset that ranges of activations are taken from, evenly spaced")
+      .in_range(1, 1000000)
+      .shows_default();
   command.add_sandbox();
   return command.run(
       argc, argv,
       [&](Console& console) {
         if (communicator.is_root()) io::check_can_be_written(output, {weights});
         KerasLoadReport report;
-        const BackboneWithOrigin source =
-            chosen_backbone(backbone, layer, weights, report, inference_options_from_environment(command.precision()));
+        const InferenceOptions options = inference_options_from_environment(command.precision());
+        const bool is_int8 = options.precision == kernels::Precision::int8;
+        BackboneWithOrigin source =
+            chosen_backbone(backbone, layer, weights, report, is_int8 ? InferenceOptions{} : options);
         if (!weights.empty())
           console.line(
               joined(weights.string(), ": ", report.loaded.size(), " layers loaded", unused_text(report.unused)));
@@ -69,6 +78,7 @@ int run(int argc, char** argv, Communicator& communicator) {
         if (communicator.is_root())
           for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
         if (communicator.is_root()) io::check_can_be_written(output, images_of(dataset));
+        if (is_int8) source = train::calibrated(source, dataset, calibration, console.messages());
         const FeaturesOrigin origin = features_origin(source, io::fingerprint(dataset, Parallel::shared()));
         const Features features = train::extract_features(source.backbone, dataset, origin, console.messages(),
                                                           communicator, io::snapshot_path(output));

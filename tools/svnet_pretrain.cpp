@@ -67,11 +67,13 @@ int main(int argc, char** argv) {
       .shows_default();
   command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {
+    options.inference = inference_options_from_environment();
+    check(options.inference.precision != kernels::Precision::int8,
+          "[SVNET_PRECISION] int8 is for trained backbones; choose f32 or bf16");
     if (output.extension() != ".safetensors") wrong_usage("--output: '", output.string(), "' must end in .safetensors");
     io::check_can_be_written(output);
     const ViewDataset dataset = io::read_view_dataset(images, *find_enum<ExifOrientation>(exif));
     for (const std::string& note : io::dataset_notes(dataset, Parallel::shared())) console.line(note);
-    options.inference = inference_options_from_environment();
     const Pretrained result = pretrain(dataset, options, console.messages());
     io::write_backbone(output, result.backbone, origin_text(result, options));
     console.result(joined(output.string(), ": ", result.backbone.kind().name, ", ", result.categories.size(),

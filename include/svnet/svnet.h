@@ -25,9 +25,10 @@
  * only the calling thread. The results are the same.
  *
  * Environment: SVNET_THREADS sets the initial number of threads. SVNET_MAX_ISA limits the instruction set.
- * SVNET_PRECISION is "f32" or "bf16" (faster and less exact, for processors with AVX512-BF16). SVNET_CONVOLUTION is
- * "direct" or "winograd" (default: the faster one). svnet_model_load reads the last three and returns
- * SVNET_INVALID_ARGUMENT for a wrong value; for SVNET_THREADS the first call that computes does so.
+ * SVNET_PRECISION is "f32" or "bf16" (faster and less exact, for processors with AVX512-BF16); a model that was trained
+ * in int8 runs so whatever it says. SVNET_CONVOLUTION is "direct" or "winograd" (default: the faster one).
+ * svnet_model_load reads the last three and returns SVNET_INVALID_ARGUMENT for a wrong value; for SVNET_THREADS the
+ * first call that computes does so.
  */
 #ifndef SVNET_SVNET_H
 #define SVNET_SVNET_H

@@ -6,7 +6,7 @@
 // arguments. The variables:
 //   SVNET_THREADS      threads of Parallel::shared(), read when it is first used
 //   SVNET_MAX_ISA      the best instruction set that svnet's own kernels may use (base/cpu.h)
-//   SVNET_PRECISION    f32 or bf16 (nn/runtime/inference_options.h)
+//   SVNET_PRECISION    f32, bf16 or int8 (nn/runtime/inference_options.h)
 //   SVNET_CONVOLUTION  direct or winograd (likewise)
 //   TMPDIR             the folder for temporary files, if not /tmp
 //   TERM               whether progress is drawn as a bar

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,8 @@ struct Model {
   models::Preprocessing preprocessing;  // of the top image
   Graph backbone_graph;
   Parameters backbone_parameters;
+  /// Not null: the backbone multiplies in int8, for activations within these ranges, as it did when the head was made.
+  std::shared_ptr<const ActivationRanges> backbone_ranges{};
   models::AngleEncoding angles = models::AngleEncoding::radians;  // of the frame `camera` only
   /// Of the frame `camera` only. A score is the mean over these symmetries of the top image (view/symmetry.h). 1: as
   /// taken; kSymmetries: all, and the preprocessed image must be square.
@@ -71,9 +74,14 @@ struct Model {
   StoredPrecision precision = StoredPrecision::f32;
 };
 
-/// `options` for the networks of a model: those of an int8 model keep their dense layers in int8.
+/// `options` for the networks of a model: those of a model stored in int8 keep their dense layers in int8, and a
+/// backbone with ranges multiplies in int8. Throws Error if int8 is asked for and a backbone has no ranges.
 inline InferenceOptions inference_options(const Model& model, InferenceOptions options = {}) {
   options.int8_dense = options.int8_dense || model.precision == StoredPrecision::int8;
+  if (model.backbone_ranges) {
+    options.precision = kernels::Precision::int8;
+    options.ranges = model.backbone_ranges;
+  }
   return options;
 }
 

@@ -5,6 +5,7 @@
 
 // A trained model in the formats of others. Each export is compared with the model (agreement.h) before it appears
 // under its name; if it differs by more than bound_of(precision), Error is thrown and nothing is written.
+// The backbone of a model that multiplies in int8 is written, to ONNX and Keras, as one that multiplies in f32.
 namespace svnet::exports {
 
 struct OnnxExport {

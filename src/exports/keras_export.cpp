@@ -96,8 +96,9 @@ Agreement export_keras(const Model& model, const std::filesystem::path& folder, 
     const Tensor output = inference.run(inputs_of(model, options, sample));
     return std::vector<float>(output.data<float>(), output.data<float>() + output.size());
   };
-  // A head with several orientations is compared on the first.
+  // A head with several orientations is compared on the first. The written backbone multiplies in f32.
   Model compared = model;
+  compared.backbone_ranges.reset();
   if (options.part == ModelPart::head) compared.symmetries = 1;
   const Agreement result = agreement(folder.string(), compared, options.part, values, bound_of(StoredPrecision::f32));
   fresh.keep();

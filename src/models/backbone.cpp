@@ -1,6 +1,8 @@
 #include "models/backbone.h"
 
 #include "base/parallel.h"
+#include "base/random.h"
+#include "nn/runtime/calibration.h"
 
 namespace svnet::models {
 
@@ -32,6 +34,25 @@ Backbone random_backbone(const std::string& name, const std::string& layer, std:
   const Graph whole = kind.graph(kind.preprocessing.height, true);
   const Graph graph = whole.up_to(output_layer(kind, whole, layer));
   return {kind, graph, initial_parameters(graph, seed), layer, options};
+}
+
+Backbone in_int8(const Backbone& backbone, std::shared_ptr<const ActivationRanges> ranges) {
+  return {backbone.kind(),
+          backbone.graph(),
+          backbone.parameters(),
+          backbone.output_name(),
+          {.precision = kernels::Precision::int8, .ranges = std::move(ranges)}};
+}
+
+Backbone in_int8_for_noise(const Backbone& backbone, std::uint64_t seed) {
+  const Preprocessing& how = backbone.preprocessing();
+  Tensor batch = Tensor::empty({1, how.height, how.width, 3});
+  RandomStream noise(seed, Stream::weights, 1);
+  for (Index i = 0; i < batch.size(); ++i)
+    batch.data<float>()[i] = static_cast<float>(noise.bits32() >> 8) * 0x1p-23f - 1.0f;
+  Calibration calibration(backbone.graph(), backbone.parameters(), backbone.graph().output());
+  calibration.add(batch);
+  return in_int8(backbone, std::make_shared<ActivationRanges>(calibration.ranges()));
 }
 
 }  // namespace svnet::models

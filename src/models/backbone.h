@@ -44,4 +44,9 @@ class Backbone {
 Backbone random_backbone(const std::string& name, const std::string& layer, std::uint64_t seed,
                          const InferenceOptions& options = {});
 
+/// The backbone with products in int8, for activations within `ranges`.
+Backbone in_int8(const Backbone& backbone, std::shared_ptr<const ActivationRanges> ranges);
+/// The same for activations as seeded noise makes them: to see and time what int8 does without pictures.
+Backbone in_int8_for_noise(const Backbone& backbone, std::uint64_t seed);
+
 }  // namespace svnet::models

@@ -31,7 +31,7 @@ std::variant<PackedWeights, PackedInt8> laid_out(const SplitGraph& split, const 
   if (options.int8_dense && is_rounded(split.layer + "/kernel", split.kernel.shape()))
     return packed_int8(depth, n, w, nullptr);
   check_available(options.precision);
-  return packed_weights(depth, n, w, nullptr, options.precision);
+  return packed_weights(depth, n, w, nullptr, dense_precision(options.precision));
 }
 
 float element(const Tensor& vector, Index i) { return vector.defined() ? vector.data<float>()[i] : 0.0f; }

@@ -15,10 +15,7 @@ namespace svnet::train {
 using models::BackboneKind;
 using models::Preprocessing;
 
-namespace {
-
-/// The views [begin, end) as a batch (N, H, W, 3).
-Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
+Tensor prepared_views(const Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
                       Parallel& parallel) {
   Tensor batch = Tensor::empty({end - begin, how.height, how.width, 3});
   parallel.for_chunks(end - begin, 1, [&](Index i, Index, int) {
@@ -28,8 +25,6 @@ Tensor prepared_batch(const Preprocessing& how, const ViewDataset& dataset, Inde
   });
   return batch;
 }
-
-}  // namespace
 
 std::string preprocessing_text(const Preprocessing& p) {
   return joined(name_of(p.mode), " ", p.height, "x", p.width, " ", name_of(p.interpolation));
@@ -55,12 +50,28 @@ void check_weights(const std::string& name, const std::filesystem::path& folder)
         joined_with(", ", kind.weight_files));
 }
 
+namespace {
+
+/// ", products in bf16"; "" for f32. In int8 features depend on the ranges too.
+std::string precision_text(const Inference& network) {
+  switch (network.options().precision) {
+    case runtime::Precision::f32:
+      break;
+    case runtime::Precision::bf16:
+      return ", products in bf16";
+    case runtime::Precision::int8:
+      return ", products in int8, ranges " + fingerprint(*network.options().ranges).substr(0, 16);
+  }
+  return "";
+}
+
+}  // namespace
+
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint) {
-  const bool in_bf16 = from.backbone.network().precision() == runtime::Precision::bf16;
   FeaturesOrigin origin{
       .backbone = from.backbone.kind().name,
       .output = from.backbone.output_name(),
-      .preprocessing = preprocessing_text(from.backbone.preprocessing()) + (in_bf16 ? ", products in bf16" : ""),
+      .preprocessing = preprocessing_text(from.backbone.preprocessing()) + precision_text(from.backbone.network()),
       .weights_sha256 = from.weights,
       .dataset_fingerprint = dataset_fingerprint,
       .input_fingerprint = {}};
@@ -124,7 +135,7 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
                                .memory = backbone.network().arena_size(kBatch),
                                .prepared =
                                    [&](Index begin, Index end, Parallel& parallel) {
-                                     return prepared_batch(backbone.preprocessing(), dataset, begin, end, parallel);
+                                     return prepared_views(backbone.preprocessing(), dataset, begin, end, parallel);
                                    },
                                .run = [&](const Tensor& batch) { return backbone.features(batch); },
                                .name = [&](Index view) { return features.paths[static_cast<std::size_t>(view)]; },

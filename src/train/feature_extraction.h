@@ -27,6 +27,10 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
 /// Writes the features to `path` and removes the snapshot beside it (io/files/snapshot_path.h).
 void write_made_features(const std::filesystem::path& path, const Features& features);
 
+/// The views [begin, end) of a dataset as a batch (N, H, W, 3).
+Tensor prepared_views(const models::Preprocessing& how, const ViewDataset& dataset, Index begin, Index end,
+                      Parallel& parallel);
+
 /// "tf 224x224 bilinear": what FeaturesOrigin::preprocessing says.
 std::string preprocessing_text(const models::Preprocessing& preprocessing);
 
@@ -45,8 +49,8 @@ BackboneWithOrigin backbone_from_folder(const std::string& name, const std::stri
 /// Throws Error if `folder` is given but holds no weights of the backbone, and none are built in.
 void check_weights(const std::string& name, const std::filesystem::path& folder);
 
-/// The origin of the features of a backbone and of images. If products are in bf16, the preprocessing says so, and the
-/// fingerprint is another.
+/// The origin of the features of a backbone and of images. If products are in bf16 or int8, the preprocessing says so,
+/// with the fingerprint of the ranges of int8, and the fingerprint is another.
 FeaturesOrigin features_origin(const BackboneWithOrigin& from, const std::string& dataset_fingerprint);
 
 }  // namespace svnet::train

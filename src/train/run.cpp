@@ -34,6 +34,9 @@ void check_config(const Run& run) {
   };
   for (const auto& name : scored_backbones(config.scores)) check_backbone(name, scored_layer(config.scores, name));
   if (frame::has_backbone(config.sv_net.frame)) check_backbone(config.sv_net.backbone, config.sv_net.layer);
+  check(config.training.fine_tune == FineTune::none || run.inference.precision != runtime::Precision::int8,
+        "training.fine_tune: with SVNET_PRECISION=int8 the backbone cannot be trained, because the ranges of its "
+        "activations would change; choose none, or f32 or bf16");
   if (config.sv_net.frame == frame::FrameChoice::camera) {
     const BackboneKind& tuned = models::backbone_kind(config.sv_net.backbone);
     const Graph graph = tuned.graph(tuned.preprocessing.height, true);

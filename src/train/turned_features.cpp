@@ -34,13 +34,12 @@ Tensor prepared_turns(const models::Preprocessing& how, const ViewDataset& datas
 }  // namespace
 
 Features extract_turned_features(const models::Backbone& backbone, const ViewDataset& dataset,
-                                 const FeaturesOrigin& origin, const InferenceOptions& inference,
-                                 const Messages& messages, Communicator& communicator) {
+                                 const FeaturesOrigin& origin, const Messages& messages, Communicator& communicator) {
   const models::Preprocessing& how = backbone.preprocessing();
   check(how.height == how.width, "[turned] images of ", how.height, "x", how.width,
         " cannot be turned; only square ones can");
   const Graph graph = models::pooled_graph(backbone.graph());
-  const Inference network(graph, backbone.parameters(), graph.output(), inference);
+  const Inference network(graph, backbone.parameters(), graph.output(), backbone.network().options());
   const auto poses = static_cast<Index>(dataset.poses.size());
   Features features{origin, poses * frame::kTurns, element_count(network.output_shape()), {}, {}, {}};
   for (Index pose = 0; pose < poses; ++pose)

@@ -48,6 +48,7 @@ void set_turned_backbone(Model& model, const models::Backbone& backbone, const P
   model.backbone_graph = models::projected_graph(models::pooled_graph(backbone.graph()), components.components);
   model.backbone_output = model.backbone_graph.node(model.backbone_graph.output()).name;
   model.backbone_parameters = backbone.parameters();
+  model.backbone_ranges = backbone.network().options().ranges;
   const auto k = static_cast<std::size_t>(components.components);
   Tensor kernel = Tensor::empty({components.inputs, components.components}),
          bias = Tensor::empty({components.components});

@@ -294,7 +294,7 @@ TEST_CASE("a wrong environment variable is an invalid argument, not an invalid m
   const auto load_with = [&](const std::string& variables) {
     return run_shell(folder.path(), variables + " " C_API_LOAD_PROBE " " + path.string()).out;
   };
-  CHECK(load_with("SVNET_PRECISION=fast") == "1 none [SVNET_PRECISION] 'fast' is neither f32 nor bf16\n");
-  CHECK(load_with("SVNET_CONVOLUTION=fast") == "1 none [SVNET_CONVOLUTION] 'fast' is neither direct nor winograd\n");
+  CHECK(load_with("SVNET_PRECISION=fast") == "1 none [SVNET_PRECISION] 'fast' is none of f32, bf16, int8\n");
+  CHECK(load_with("SVNET_CONVOLUTION=fast") == "1 none [SVNET_CONVOLUTION] 'fast' is none of direct, winograd\n");
   CHECK(load_with("SVNET_PRECISION=f32 SVNET_CONVOLUTION=direct") == "0 model \n");
 }

@@ -246,6 +246,42 @@ TEST_CASE("a model in a frame with turns is read with the same bits, its backbon
   CHECK_FALSE(description.contains("angles"));
 }
 
+TEST_CASE("a model keeps the ranges of a backbone that multiplies in int8, and damaged ones are refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors", bad = temporary.path() / "bad.safetensors";
+  Model model = small_model();
+  write_model(path, model);
+  CHECK(read_model(path).backbone_ranges == nullptr);
+  const Backbone exact = random_backbone("tiny_xception", "", 2), coarse = in_int8_for_noise(exact, 7);
+  model.backbone_ranges = coarse.network().options().ranges;
+  REQUIRE(model.backbone_ranges != nullptr);
+  write_model(path, model);
+  const Model back = read_model(path);
+  REQUIRE(back.backbone_ranges != nullptr);
+  CHECK(*back.backbone_ranges == *model.backbone_ranges);
+  const Tensor image = Tensor::full({1, 96, 96, 3}, 0.5);
+  const Inference network(back.backbone_graph, back.backbone_parameters, back.backbone_graph.output(),
+                          inference_options(back));
+  CHECK(network.precision() == kernels::Precision::int8);
+  CHECK(equal(network.run({image}), coarse.features(image)));
+  CHECK_FALSE(equal(network.run({image}), exact.features(image)));
+
+  const auto read_changed = [&](const std::function<void(nlohmann::json&)>& change) {
+    write_changed(path, bad, change);
+    static_cast<void>(read_model(bad));
+  };
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["backbone"]["ranges"][0]["channels"] = 5; }),
+                    Catch::StartsWith(bad.string()) && Catch::Contains("expected 5"));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["backbone"]["ranges"][0]["channels"] = -1; }),
+                    Catch::StartsWith(bad.string()) && Catch::Contains("has -1 channels"));
+  CHECK_THROWS_WITH(read_changed([](auto& d) { d["backbone"]["ranges"][0]["layer"] = "other"; }),
+                    Catch::StartsWith(bad.string()) && Catch::Contains("ranges/other/low"));
+  ActivationRanges broken = *model.backbone_ranges;
+  broken.begin()->second.high[0] = INFINITY;
+  model.backbone_ranges = std::make_shared<ActivationRanges>(broken);
+  CHECK_THROWS_WITH(write_model(bad, model), Catch::StartsWith(bad.string()) && Catch::Contains("is not finite at 0"));
+}
+
 TEST_CASE("a damaged model in a frame with turns is refused") {
   const TemporaryFolder temporary;
   const auto path = temporary.path() / "model.safetensors", bad = temporary.path() / "bad.safetensors";

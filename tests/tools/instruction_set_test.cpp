@@ -85,6 +85,51 @@ TEST_CASE("features in bf16 are near those in f32, are marked as bf16 and have a
   CHECK(features("SVNET_PRECISION=bf16 ", " --precision f32").values == plain.values);
 }
 
+TEST_CASE(
+    "features in int8 are near those in f32, are marked with their ranges and have the same bits with and without "
+    "VNNI") {
+  const Workplace place;
+  const auto features = [&](const std::string& environment, const std::string& option) {
+    place.output_of(environment +
+                    "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
+                    "--output its.h5" +
+                    option);
+    return read_features(place / "its.h5");
+  };
+  const Features plain = features("", ""), coarse = features("", " --precision int8");
+  CHECK(difference(plain.values, coarse.values) <= 0.1);
+  CHECK(plain.values != coarse.values);
+  CHECK_THAT(coarse.preprocessing, Catch::StartsWith(plain.preprocessing + ", products in int8, ranges "));
+  CHECK(coarse.input_fingerprint != plain.input_fingerprint);
+  CHECK(features("SVNET_PRECISION=int8 ", " --threads 1").values == coarse.values);
+  CHECK(features("SVNET_PRECISION=int8 ", " --threads 8").values == coarse.values);
+  CHECK(features("SVNET_PRECISION=int8 ", " --precision f32").values == plain.values);
+  // Other ranges are other features.
+  const Features few = features("", " --precision int8 --calibration 2");
+  CHECK(few.input_fingerprint != coarse.input_fingerprint);
+  CHECK(few.values != coarse.values);
+  for (const std::string& set : instruction_sets())
+    if (set.starts_with("AVX")) {
+      INFO(set);
+      const Features capped = features("SVNET_MAX_ISA=" + set + " ", " --precision int8");
+      CHECK(capped.values == coarse.values);
+      CHECK(capped.input_fingerprint == coarse.input_fingerprint);
+    }
+}
+
+TEST_CASE("int8 is refused where there are no ranges of activations") {
+  const Workplace place;
+  const auto refused = [&](const std::string& command) {
+    const auto result = place.run("SVNET_PRECISION=int8 " + command);
+    CHECK(result.status == 1);
+    return result.err;
+  };
+  CHECK_THAT(refused("svnet-predict model.safetensors --image top.png"),
+             Catch::Contains("[precision] int8 needs the ranges of activations"));
+  CHECK_THAT(refused("svnet-pretrain --images data --backbone tiny_xception --output its.safetensors"),
+             Catch::Contains("[SVNET_PRECISION] int8 is for trained backbones; choose f32 or bf16"));
+}
+
 TEST_CASE("SVNET_MAX_ISA: svnet-info prints the instruction set in use") {
   const Workplace place;
   for (const std::string& set : instruction_sets())
@@ -109,9 +154,9 @@ TEST_CASE("wrong words in the environment are errors") {
   const auto error_of = [&](const std::string& variable) {
     return place.run(variable + " svnet-predict model.safetensors --image top.png").err;
   };
-  CHECK(error_of("SVNET_PRECISION=half") == "svnet-predict: [SVNET_PRECISION] 'half' is neither f32 nor bf16\n");
+  CHECK(error_of("SVNET_PRECISION=half") == "svnet-predict: [SVNET_PRECISION] 'half' is none of f32, bf16, int8\n");
   CHECK(error_of("SVNET_CONVOLUTION=fast") ==
-        "svnet-predict: [SVNET_CONVOLUTION] 'fast' is neither direct nor winograd\n");
+        "svnet-predict: [SVNET_CONVOLUTION] 'fast' is none of direct, winograd\n");
 }
 
 TEST_CASE("SVNET_MAX_ISA: all instruction sets agree to 1e-4") {

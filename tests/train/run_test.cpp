@@ -15,6 +15,7 @@
 #include "predict/predictor.h"
 #include "small_dataset.h"
 #include "small_run.h"
+#include "train/calibration.h"
 #include "train/stages/contact_sheet.h"
 #include "train/stages/dry_run.h"
 #include "train/stages/evaluation.h"
@@ -438,6 +439,58 @@ TEST_CASE("scores resume from the snapshot of an interrupted run") {
     CHECK(file_sha256(path) == file_sha256(temporary.path() / "whole/scores.h5"));
   }
   CHECK_FALSE(std::filesystem::exists(snapshot_path(path)));
+}
+
+TEST_CASE("a run in int8 leaves a model that predicts with the backbone that it was trained with") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  Config config = small_config(temporary.path() / "data");
+  const ViewDataset dataset = read_view_dataset(config.dataset.root);
+  const InferenceOptions int8{.precision = kernels::Precision::int8};
+  const auto folder = temporary.path() / "run";
+  Log log;
+  const Run run = make_run(config, dataset, folder, log.messages, SingleProcess::shared(), int8);
+  FeaturesStage stage(run);
+  const Features& features = stage.features("tiny_xception", "");
+  CHECK_THAT(features.preprocessing, Catch::Contains(", products in int8, ranges "));
+  const Scores scores = scores_stage(run, stage);
+  static_cast<void>(model_stage(run, stage, scores));
+  const Model model = read_model(folder / "model.safetensors");
+  REQUIRE(model.backbone_ranges != nullptr);
+  const Predictor predictor(model);
+  for (const auto& pose : dataset.poses) {
+    const auto top = static_cast<std::size_t>(pose.top_view);
+    const Tensor embedded = predictor.embed(read_image(dataset.root / dataset.views[top].path));
+    CHECK(std::equal(embedded.data<float>(), embedded.data<float>() + embedded.size(),
+                     features.values.begin() + static_cast<std::ptrdiff_t>(top) * features.dimension));
+  }
+  // The same ranges again: everything is reused.
+  Log again;
+  const Run second = make_run(config, dataset, folder, again.messages, SingleProcess::shared(), int8);
+  FeaturesStage same(second);
+  static_cast<void>(model_stage(second, same, scores_stage(second, same)));
+  for (const char* what : {"features of tiny_xception: reused", "scores: reused", "SV-net: reused"})
+    CHECK(again.has(what));
+  config.training.fine_tune = FineTune::last_block;
+  CHECK_THROWS_WITH(make_run(config, dataset, folder, {}, SingleProcess::shared(), int8),
+                    Catch::StartsWith("training.fine_tune: with SVNET_PRECISION=int8"));
+}
+
+TEST_CASE("calibration takes evenly spaced views and refuses a dataset without any") {
+  const TemporaryFolder temporary;
+  write_small_dataset(temporary.path() / "data");
+  const ViewDataset dataset = read_view_dataset(temporary.path() / "data");
+  const BackboneWithOrigin exact = backbone_from_folder("tiny_xception", "", {}, 1);
+  const auto ranges = [&](const ViewDataset& from, Index images) {
+    return *calibrated(exact, from, images, {}).backbone.network().options().ranges;
+  };
+  ViewDataset two = dataset;
+  two.views = {dataset.views[0], dataset.views[dataset.views.size() / 2]};
+  CHECK(ranges(dataset, 2) == ranges(two, 64));
+  CHECK(ranges(dataset, 3) != ranges(two, 64));
+  ViewDataset none = dataset;
+  none.views.clear();
+  CHECK_THROWS_WITH(ranges(none, 64), "[calibration] there are no pictures");
 }
 
 TEST_CASE("a dry run leaves no file") {

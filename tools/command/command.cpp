@@ -78,9 +78,10 @@ Argument Command::add_callback(const std::string& name, const std::function<void
 Argument Command::add_precision() {
   return add("--precision", precision_,
              "Precision of the network's products. bf16 is faster and less exact; it needs a processor with "
-             "AVX512-BF16 (default: SVNET_PRECISION, or f32)")
-      .one_of({"f32", "bf16"})
-      .value_name("f32|bf16");
+             "AVX512-BF16. int8 is still faster and less exact, runs everywhere, and takes ranges of activations from "
+             "pictures (default: SVNET_PRECISION, or f32)")
+      .one_of({"f32", "bf16", "int8"})
+      .value_name("f32|bf16|int8");
 }
 
 Argument Command::add_sandbox() {

@@ -54,7 +54,7 @@ class Command {
 
   /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone.
   Argument add_precision();
-  /// "f32" or "bf16", "" if it was not given.
+  /// "f32", "bf16" or "int8", "" if it was not given.
   const std::string& precision() const { return precision_; }
 
   /// Adds --sandbox, which sets sandbox::mode(). For programs that read files which libraries decode.

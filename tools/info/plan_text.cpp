@@ -64,7 +64,10 @@ std::string plan_text(const Inference& network, Index batch) {
 
 std::string backbone_plan(const std::string& name, const std::string& layer, Index batch,
                           const InferenceOptions& options) {
-  const models::Backbone backbone = models::random_backbone(name, layer, 1, options);
+  constexpr std::uint64_t kSeed = 1;
+  const bool is_int8 = options.precision == kernels::Precision::int8;
+  const models::Backbone random = models::random_backbone(name, layer, kSeed, is_int8 ? InferenceOptions{} : options);
+  const models::Backbone backbone = is_int8 ? models::in_int8_for_noise(random, kSeed) : random;
   return joined(name, " to ", backbone.output_name(), "\n", plan_text(backbone.network(), batch));
 }
 

@@ -48,6 +48,42 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
     }
 }
 
+/// Which layers have ranges, and of how many channels; the ranges are tensors "ranges/<layer>/low", "…/high", "…/mean".
+json ranges_to_json(const ActivationRanges& ranges) {
+  json to = json::array();
+  for (const auto& [layer, of_layer] : ranges) to.push_back({{"layer", layer}, {"channels", of_layer.low.size()}});
+  return to;
+}
+
+void add_ranges(TensorFile& file, const ActivationRanges& ranges) {
+  const auto add = [&](const std::string& name, const std::vector<float>& values) {
+    Tensor tensor = Tensor::empty({static_cast<Index>(values.size())});
+    std::ranges::copy(values, tensor.data<float>());
+    file.add(name, tensor);
+  };
+  for (const auto& [layer, of_layer] : ranges) {
+    const std::string prefix = "ranges/" + layer + "/";
+    add(prefix + "low", of_layer.low);
+    add(prefix + "high", of_layer.high);
+    add(prefix + "mean", of_layer.mean);
+  }
+}
+
+ActivationRanges ranges_of(const TensorFile& file, const json& described) {
+  ActivationRanges ranges;
+  for (const json& item : described) {
+    const auto layer = item.at("layer").get<std::string>();
+    const auto channels = item.at("channels").get<Index>();
+    check(channels > 0, "ranges: layer '", layer, "' has ", channels, " channels");
+    const auto values = [&](const char* which) {
+      const auto from = file.at("ranges/" + layer + "/" + which, {channels}).values<float>();
+      return std::vector<float>(from.begin(), from.end());
+    };
+    ranges[layer] = {values("low"), values("high"), values("mean")};
+  }
+  return ranges;
+}
+
 void check_backbone(const Model& model) {
   const Preprocessing& p = model.preprocessing;
   const auto images = model.backbone_graph.inputs();
@@ -161,6 +197,7 @@ json input_to_json(const Model& model, const Graph& backbone) {
   if (frame::has_backbone(model.frame)) {
     input["backbone"] = {
         {"name", model.backbone}, {"output", model.backbone_output}, {"graph", graph_to_json(backbone)}};
+    if (model.backbone_ranges) input["backbone"]["ranges"] = ranges_to_json(*model.backbone_ranges);
     input["preprocessing"] = preprocessing_to_json(model.preprocessing);
   }
   if (model.frame == FrameChoice::camera)
@@ -196,6 +233,7 @@ void write_model(const std::filesystem::path& path, const Model& model) {
   if (has_next) file.description()["next"] = {{"graph", graph_to_json(model.next_head)}};
   write_origin(model, file.description());
   add_parameters(file, "backbone", backbone, model.backbone_parameters, model.precision);
+  if (model.backbone_ranges) add_ranges(file, *model.backbone_ranges);
   add_parameters(file, "head", model.head, model.head_parameters, model.precision);
   if (has_next) add_parameters(file, "next", model.next_head, model.next_parameters, model.precision);
   file.write(path);
@@ -244,6 +282,8 @@ Model model_of(const TensorFile& file) {
       model.backbone_output = backbone.at("output").get<std::string>();
       model.backbone_graph = graph_from_json(backbone.at("graph"), "backbone");
       model.preprocessing = preprocessing_from_json(preprocessing);
+      if (backbone.contains("ranges"))
+        model.backbone_ranges = std::make_shared<ActivationRanges>(ranges_of(file, backbone.at("ranges")));
     }
     if (is_camera) {
       model.angles = models::angle_encoding_named(angles.at("encoding").get<std::string>());

@@ -9,7 +9,7 @@
 namespace svnet::kernels {
 
 void check_available(Precision precision) {
-  if (precision == Precision::f32) return;
+  if (precision != Precision::bf16) return;
   check(machine_has_bf16(), "[precision] bf16 needs a processor with AVX512-BF16, this one (", cpu_name(),
         ") lacks it; choose f32");
   check((hwy::SupportedTargets() & HWY_AVX3) != 0, "[precision] bf16 needs AVX-512, but kernels are capped at ",

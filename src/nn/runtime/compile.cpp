@@ -23,8 +23,9 @@ class Compiler {
   Compiler(const Graph& graph, const Parameters& parameters, const InferenceOptions& options)
       : graph_(graph),
         parameters_(parameters),
-        fusion_(graph, options.convolution),
+        fusion_(graph, options.observable ? Convolution::direct : options.convolution, options.observable),
         precision_(options.precision),
+        ranges_(options.ranges.get()),
         int8_dense_(options.int8_dense),
         value_(graph.nodes().size(), -1) {}
 
@@ -54,6 +55,25 @@ class Compiler {
   template <class L>
   Tensor bias(NodeId id, const L& layer) const {
     return layer.bias ? get(id, "bias") : Tensor{};
+  }
+
+  /// How the layer multiplies its `channels` inputs.
+  Product product(NodeId id, Index channels) const {
+    Product result{.precision = precision_, .layer = node(id).name};
+    if (precision_ != Precision::int8) return result;
+    check(ranges_ != nullptr,
+          "[precision] int8 needs the ranges of activations. svnet-features and svnet-train find them on pictures, and "
+          "a model that was trained in int8 has them; choose f32 or bf16 for others");
+    const auto found = ranges_->find(result.layer);
+    check(found != ranges_->end(), "[precision] int8: the ranges of activations lack layer ", result.layer,
+          ": they are of another network");
+    result.ranges = &found->second;
+    const auto known = found->second.low.size();
+    check(known == static_cast<std::size_t>(channels) && found->second.high.size() == known &&
+              found->second.mean.size() == known,
+          "[precision] int8: layer ", result.layer, " multiplies ", channels, " channels, but there are ranges of ",
+          known);
+    return result;
   }
 
   ValueId new_value(Index elements) {
@@ -143,11 +163,17 @@ class Compiler {
     if (fusion_.is_separable(f.main))
       emit_separable(f, l);
     else
-      push(f.last,
-           convolution_step(fusion_.window(f.main, l), get(f.main, "kernel"), bias(f.main, l), f.finish,
-                            fusion_.uses_winograd(f.main), precision_),
-           inputs(f, fusion_.source(f.main)));
+      emit_convolution(f, l);
     activate(f.last, rest);
+  }
+
+  void emit_convolution(const Fused& f, const Conv2dLayer& l) {
+    const Window window = fusion_.window(f.main, l);
+    const bool winograd = fusion_.uses_winograd(f.main), rounds = !winograd && rounds_products(window);
+    push(f.last,
+         convolution_step(window, get(f.main, "kernel"), bias(f.main, l), f.finish, winograd,
+                          rounds ? product(f.main, window.c) : Product{}),
+         inputs(f, fusion_.source(f.main)));
   }
 
   /// A pointwise convolution with the depthwise one before it, and with the expansion before that if it is fused, too.
@@ -161,11 +187,15 @@ class Compiler {
     const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, pointwise);
     const Window window = fusion_.window(first, d);
     if (!fusion_.fused(from))
-      return push(f.last, separable_step(window, depthwise, kernel, own_bias, f.finish, precision_), inputs(f, from));
+      return push(f.last, separable_step(window, depthwise, kernel, own_bias, f.finish, product(f.main, window.c)),
+                  inputs(f, from));
     const auto& e = *node(from).as<Conv2dLayer>();
-    const ExpansionPart expansion{
-        .kernel = get(from, "kernel"), .bias = bias(from, e), .clamp = *kernels::clamp_of(e.activation)};
-    push(f.last, expanded_separable_step(window, expansion, depthwise, kernel, own_bias, f.finish, precision_),
+    const ExpansionPart expansion{.kernel = get(from, "kernel"),
+                                  .bias = bias(from, e),
+                                  .clamp = *kernels::clamp_of(e.activation),
+                                  .product = product(from, channels(fusion_.source(from)))};
+    push(f.last,
+         expanded_separable_step(window, expansion, depthwise, kernel, own_bias, f.finish, product(f.main, window.c)),
          inputs(f, fusion_.source(from)));
   }
 
@@ -178,16 +208,18 @@ class Compiler {
     if (f.finish.pool) {
       push(f.last,
            separable_max_pool_step(window, depthwise, pointwise, own_bias, f.finish.clamp,
-                                   fusion_.pool_window(f.last, *node(f.last).as<Pool2dLayer>()), precision_),
+                                   fusion_.pool_window(f.last, *node(f.last).as<Pool2dLayer>()),
+                                   product(f.main, window.c)),
            inputs(f, from));
     } else if (fusion_.is_separable(f.main)) {
-      push(f.last, separable_step(window, depthwise, pointwise, own_bias, f.finish, precision_), inputs(f, from));
+      push(f.last, separable_step(window, depthwise, pointwise, own_bias, f.finish, product(f.main, window.c)),
+           inputs(f, from));
     } else {
       const Window pixel = window_over("runtime", 1, window.oh, window.ow, window.c * l.multiplier, {});
       const ValueId between = new_value(pixel.h * pixel.w * pixel.c);
       program_.steps.push_back(
           {node(f.main).name, depthwise_step(window, depthwise, l.multiplier), {value_[at(from)]}, between});
-      push(f.last, convolution_step(pixel, pointwise, own_bias, f.finish, false, precision_), {between});
+      push(f.last, convolution_step(pixel, pointwise, own_bias, f.finish, false, product(f.main, pixel.c)), {between});
     }
     activate(f.last, rest);
   }
@@ -205,7 +237,8 @@ class Compiler {
     const Tensor kernel = get(f.main, "kernel"), own_bias = bias(f.main, l);
     const bool is_int8 = int8_dense_ && is_rounded(node(f.main).name + "/kernel", kernel.shape());
     push(f.last,
-         is_int8 ? int8_dense_step(kernel, own_bias, f.finish) : dense_step(kernel, own_bias, f.finish, precision_),
+         is_int8 ? int8_dense_step(kernel, own_bias, f.finish)
+                 : dense_step(kernel, own_bias, f.finish, kernels::dense_precision(precision_)),
          inputs(f, input(f.main)));
     activate(f.last, rest);
   }
@@ -282,6 +315,7 @@ class Compiler {
   const Parameters& parameters_;
   const Fusion fusion_;
   const Precision precision_;
+  const ActivationRanges* const ranges_;
   const bool int8_dense_;
   std::vector<ValueId> value_;  // of each node; -1 if it has none
   Program program_{};

@@ -21,11 +21,24 @@ Window with_batch(Window window, Index batch) {
 
 std::string size_text(const Window& w) { return joined(w.kh, "x", w.kw); }
 
-const char* gemm_text(const PackedWeights& weights) {
-  return weights.precision == Precision::bf16 ? "bf16 gemm" : "packed gemm";
+std::string gemm_text(const PackedWeights& weights) {
+  return weights.precision == Precision::f32 ? "packed gemm" : joined(name_of(weights.precision), " gemm");
 }
-const char* implicit_text(const PackedWeights& weights) {
-  return weights.precision == Precision::bf16 ? "bf16 implicit gemm" : "implicit gemm";
+std::string implicit_text(const PackedWeights& weights) {
+  return weights.precision == Precision::f32 ? "implicit gemm" : joined(name_of(weights.precision), " implicit gemm");
+}
+
+/// The weights of a product (depth, n) in the layout of its kernel. `clamp` limits the left operand.
+PackedWeights weights_of(const Product& product, Index depth, const Tensor& kernel, const Tensor& bias,
+                         Clamp clamp = Clamp::none) {
+  const Index n = kernel.dim(-1);
+  if (product.precision != Precision::int8)
+    return packed_weights(depth, n, data_of(kernel), data_of(bias), product.precision);
+  ChannelRanges ranges = *product.ranges;
+  const auto limits = range_of(clamp);
+  for (float& low : ranges.low) low = limits.clamped(low);
+  for (float& high : ranges.high) high = limits.clamped(high);
+  return packed_int8_weights(depth, n, data_of(kernel), data_of(bias), ranges);
 }
 
 PackedFinish packed_finish(const ConvolutionFinish& finish, const StepBuffers& b) {
@@ -35,11 +48,11 @@ PackedFinish packed_finish(const ConvolutionFinish& finish, const StepBuffers& b
 class PackedConvolution : public Step {
  public:
   PackedConvolution(const Window& window, const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
-                    Precision precision)
+                    const Product& product)
       : window_(window),
-        weights_(
-            packed_weights(kernel.size() / kernel.dim(-1), kernel.dim(-1), data_of(kernel), data_of(bias), precision)),
-        finish_(finish) {}
+        weights_(weights_of(product, kernel.size() / kernel.dim(-1), kernel, bias)),
+        finish_(finish),
+        layer_(product.layer) {}
 
   void run(const StepBuffers& b) const override {
     packed_conv2d(b.parallel, with_batch(window_, b.batch), b.inputs[0], weights_, packed_finish(finish_, b), b.output,
@@ -47,6 +60,9 @@ class PackedConvolution : public Step {
   }
   Index scratch(Index batch, int threads) const override {
     return packed_conv2d_scratch(with_batch(window_, batch), threads, weights_.precision);
+  }
+  void observe(const StepBuffers& b, const ProductObserver& observer) const override {
+    if (!layer_.empty()) observer(layer_, b.batch * window_.h * window_.w, {b.inputs[0], window_.c, kPanel}, window_.c);
   }
   std::string kernel() const override {
     return joined(window_.reads_in_place() ? gemm_text(weights_) : implicit_text(weights_), " ", size_text(window_));
@@ -58,6 +74,7 @@ class PackedConvolution : public Step {
   Window window_;
   PackedWeights weights_;
   ConvolutionFinish finish_;
+  std::string layer_;  // "": observers do not see it
 };
 
 class Int8Dense : public Step {
@@ -106,13 +123,15 @@ class WinogradConvolution : public Step {
 class Separable : public Step {
  public:
   Separable(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-            const ConvolutionFinish& finish, Precision precision)
+            const ConvolutionFinish& finish, const Product& product)
       : window_(window),
         taps_(depthwise_taps(window.kh, window.kw, window.c, data_of(depthwise.kernel), data_of(depthwise.bias))),
-        weights_(packed_weights(window.c, pointwise.dim(-1), data_of(pointwise), data_of(bias), precision)),
-        finish_(finish) {
+        weights_(weights_of(product, window.c, pointwise, bias, depthwise.clamp)),
+        finish_(finish),
+        layer_(product.layer) {
     taps_.relu_input = depthwise.relu_input;
     taps_.clamp = depthwise.clamp;
+    if (product.precision == Precision::int8) round_taps(weights_.input, taps_);
   }
 
   void run(const StepBuffers& b) const override {
@@ -121,6 +140,13 @@ class Separable : public Step {
   }
   Index scratch(Index batch, int threads) const override {
     return separable_scratch(with_batch(window_, batch), threads, weights_.precision);
+  }
+  void observe(const StepBuffers& b, const ProductObserver& observer) const override {
+    const Window w = with_batch(window_, b.batch);
+    const Index rows = w.positions();
+    const AlignedFloats between = aligned_floats(rows * panels(w.c) * kPanel);
+    depthwise_rows(w, taps_, b.inputs[0], 0, rows, between.get());
+    observer(layer_, rows, {between.get(), kPanel, kPanel * rows}, w.c);
   }
   std::string kernel() const override { return joined("depthwise ", size_text(window_), " + ", gemm_text(weights_)); }
   double flops() const override {
@@ -135,15 +161,16 @@ class Separable : public Step {
   DepthwiseTaps taps_;
   PackedWeights weights_;
   ConvolutionFinish finish_;
+  std::string layer_;
 };
 
 class ExpandedSeparable : public Separable {
  public:
   ExpandedSeparable(const Window& window, const ExpansionPart& expansion, const DepthwisePart& depthwise,
-                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish, Precision precision)
-      : Separable(window, depthwise, pointwise, bias, finish, precision),
-        expansion_(packed_weights(expansion.kernel.size() / window.c, window.c, data_of(expansion.kernel),
-                                  data_of(expansion.bias), precision)),
+                    const Tensor& pointwise, const Tensor& bias, const ConvolutionFinish& finish,
+                    const Product& product)
+      : Separable(window, depthwise, pointwise, bias, finish, product),
+        expansion_(weights_of(expansion.product, expansion.kernel.size() / window.c, expansion.kernel, expansion.bias)),
         clamp_(expansion.clamp) {}
 
   void run(const StepBuffers& b) const override {
@@ -169,8 +196,8 @@ class ExpandedSeparable : public Separable {
 class SeparableMaxPool : public Separable {
  public:
   SeparableMaxPool(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-                   Clamp clamp, const Window& pool, Precision precision)
-      : Separable(window, depthwise, pointwise, bias, {.clamp = clamp}, precision), pool_(pool) {}
+                   Clamp clamp, const Window& pool, const Product& product)
+      : Separable(window, depthwise, pointwise, bias, {.clamp = clamp}, product), pool_(pool) {}
 
   void run(const StepBuffers& b) const override {
     separable_max_pool(b.parallel, with_batch(window_, b.batch), b.inputs[0], taps_, weights_, finish_.clamp,
@@ -208,16 +235,15 @@ class Depthwise : public Step {
 }  // namespace
 
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
-                             const ConvolutionFinish& finish, bool winograd, Precision precision) {
+                             const ConvolutionFinish& finish, bool winograd, const Product& product) {
   if (winograd) return std::make_unique<WinogradConvolution>(window, kernel, bias, finish);
-  // In first layers the rows of a window are so short that rounding them costs more than the products save.
-  if (window.kh > 1 && window.kw * window.c < 2 * kPanel) precision = Precision::f32;
-  return std::make_unique<PackedConvolution>(window, kernel, bias, finish, precision);
+  return std::make_unique<PackedConvolution>(window, kernel, bias, finish,
+                                             rounds_products(window) ? product : Product{});
 }
 
 StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish, Precision precision) {
   return std::make_unique<PackedConvolution>(window_over("dense", 1, 1, 1, kernel.dim(0), {}), kernel, bias, finish,
-                                             precision);
+                                             Product{.precision = precision});
 }
 
 StepPointer int8_dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish) {
@@ -225,19 +251,19 @@ StepPointer int8_dense_step(const Tensor& kernel, const Tensor& bias, const Conv
 }
 
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
-                           const Tensor& bias, const ConvolutionFinish& finish, Precision precision) {
-  return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish, precision);
+                           const Tensor& bias, const ConvolutionFinish& finish, const Product& product) {
+  return std::make_unique<Separable>(window, depthwise, pointwise, bias, finish, product);
 }
 
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-                                    const ConvolutionFinish& finish, Precision precision) {
-  return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish, precision);
+                                    const ConvolutionFinish& finish, const Product& product) {
+  return std::make_unique<ExpandedSeparable>(window, expansion, depthwise, pointwise, bias, finish, product);
 }
 
 StepPointer separable_max_pool_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
-                                    const Tensor& bias, Clamp clamp, const Window& pool, Precision precision) {
-  return std::make_unique<SeparableMaxPool>(window, depthwise, pointwise, bias, clamp, pool, precision);
+                                    const Tensor& bias, Clamp clamp, const Window& pool, const Product& product) {
+  return std::make_unique<SeparableMaxPool>(window, depthwise, pointwise, bias, clamp, pool, product);
 }
 
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier) {

@@ -17,8 +17,12 @@ bool is_plain_pointwise(const Conv2dLayer& l) {
 
 }  // namespace
 
-Fusion::Fusion(const Graph& graph, Convolution convolution)
-    : graph_(graph), convolution_(convolution), readers_(graph.nodes().size(), 0), fused_(graph.nodes().size(), false) {
+Fusion::Fusion(const Graph& graph, Convolution convolution, bool observable)
+    : graph_(graph),
+      convolution_(convolution),
+      observable_(observable),
+      readers_(graph.nodes().size(), 0),
+      fused_(graph.nodes().size(), false) {
   for (const auto& node : graph.nodes())
     for (NodeId id : node.inputs) ++readers_[at(id)];
   ++readers_[at(graph.output())];  // the caller
@@ -117,7 +121,7 @@ void Fusion::fuse_inputs(NodeId id) {
 bool Fusion::can_expand(NodeId depthwise) const {
   const NodeId from = source(depthwise);
   const auto* l = node(from).as<Conv2dLayer>();
-  return l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
+  return !observable_ && l != nullptr && only_reader_of(from) && clamp_of(l->activation) && !is_separable(from) &&
          window(from, *l).reads_in_place() &&
          kernels::fits_strips(window(depthwise, *node(depthwise).as<DepthwiseConv2dLayer>()));
 }

@@ -14,7 +14,8 @@ using kernels::Convolution;
 /// block. Requires that the graph outlives it.
 class Fusion {
  public:
-  Fusion(const Graph& graph, Convolution convolution);
+  /// `observable`: an expansion stays a step of its own.
+  Fusion(const Graph& graph, Convolution convolution, bool observable = false);
 
   /// Whether the node is part of its reader's step.
   bool fused(NodeId id) const { return fused_[at(id)]; }
@@ -48,6 +49,7 @@ class Fusion {
 
   const Graph& graph_;
   const Convolution convolution_;
+  const bool observable_;
   std::vector<int> readers_;
   std::vector<bool> fused_;
 };

@@ -67,7 +67,7 @@ class Inference::ArenaLease {
 };
 
 Inference::Inference(const Graph& graph, const Parameters& parameters, NodeId output, const InferenceOptions& options)
-    : precision_(options.precision),
+    : options_(options),
       program_(runtime::compile(graph, parameters, output, options)),
       memory_(planned(program_)),
       group_(samples_together(program_, memory_)) {}
@@ -102,7 +102,7 @@ Index Inference::arena_size(Index batch) const {
 }
 
 void Inference::run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch,
-                         float* output, Arena& arena) const {
+                         float* output, Arena& arena, const runtime::ProductObserver* observer) const {
   const auto place = [&](runtime::ValueId id) -> float* {
     return id == program_.output ? output : arena.memory.get() + memory_.offsets[static_cast<std::size_t>(id)] * batch;
   };
@@ -110,11 +110,24 @@ void Inference::run_step(const runtime::ProgramStep& step, std::span<const float
     const auto id = static_cast<std::size_t>(step.inputs[i]);
     arena.inputs[i] = id < inputs.size() ? inputs[id] : place(step.inputs[i]);
   }
-  step.step->run({.inputs = {arena.inputs.data(), step.inputs.size()},
-                  .output = place(step.output),
-                  .scratch = arena.memory.get() + memory_.size * batch,
-                  .batch = batch,
-                  .parallel = Parallel::shared()});
+  const runtime::StepBuffers buffers{.inputs = {arena.inputs.data(), step.inputs.size()},
+                                     .output = place(step.output),
+                                     .scratch = arena.memory.get() + memory_.size * batch,
+                                     .batch = batch,
+                                     .parallel = Parallel::shared()};
+  if (observer != nullptr) step.step->observe(buffers, *observer);
+  step.step->run(buffers);
+}
+
+void Inference::observe(const std::vector<Tensor>& inputs, const runtime::ProductObserver& observer) const {
+  const std::vector<const float*> values = checked(inputs);
+  Tensor output = Tensor::empty(program_.output_shape);
+  const ArenaLease arena(*this, arena_size(1));
+  std::vector<const float*> from(values.size());
+  for (Index sample = 0; sample < inputs[0].dim(0); ++sample) {
+    for (std::size_t i = 0; i < values.size(); ++i) from[i] = values[i] + sample * program_.sizes[i];
+    for (const auto& step : program_.steps) run_step(step, from, 1, output.data<float>(), *arena, &observer);
+  }
 }
 
 void Inference::run(std::span<const float* const> inputs, Index batch, float* output, Arena* own) const {
@@ -135,7 +148,7 @@ void Inference::run(std::span<const float* const> inputs, Index batch, float* ou
   }
 }
 
-Tensor Inference::run(const std::vector<Tensor>& inputs) const {
+std::vector<const float*> Inference::checked(const std::vector<Tensor>& inputs) const {
   check(inputs.size() == program_.inputs.size(), "[runtime] takes ", program_.inputs.size(), " inputs, got ",
         inputs.size());
   check(!inputs.empty() && inputs[0].defined() && inputs[0].rank() >= 1, "[runtime] the first input is empty");
@@ -148,6 +161,12 @@ Tensor Inference::run(const std::vector<Tensor>& inputs) const {
           inputs[i].defined() ? to_string(inputs[i].shape()) : "empty", ", expected ", to_string(expected));
     values.push_back(inputs[i].data<float>());
   }
+  return values;
+}
+
+Tensor Inference::run(const std::vector<Tensor>& inputs) const {
+  const std::vector<const float*> values = checked(inputs);
+  const Index batch = inputs[0].dim(0);
   Shape shape = program_.output_shape;
   shape.insert(shape.begin(), batch);
   Tensor output = Tensor::empty(shape);

@@ -38,10 +38,15 @@ class Inference {
   const std::vector<Shape>& input_shapes() const { return program_.inputs; }  ///< without the batch
   const Shape& output_shape() const { return program_.output_shape; }         ///< without the batch
 
-  runtime::Precision precision() const { return precision_; }
+  const InferenceOptions& options() const { return options_; }
+  runtime::Precision precision() const { return options_.precision; }
 
   /// The output of a batch. Inputs are f32, in the graph's order. Throws Error if shapes do not fit.
   Tensor run(const std::vector<Tensor>& inputs) const;
+
+  /// Runs a batch and shows the left operand of each product that int8 can multiply, as runtime::ProductObserver says.
+  /// Requires InferenceOptions::observable.
+  void observe(const std::vector<Tensor>& inputs, const runtime::ProductObserver& observer) const;
 
   /// The memory of runs, one at a time. It grows to what a run needs, and later runs allocate nothing.
   struct Arena {
@@ -66,9 +71,11 @@ class Inference {
 
   void reserve(Arena& arena, Index size) const;
   void run_step(const runtime::ProgramStep& step, std::span<const float* const> inputs, Index batch, float* output,
-                Arena& arena) const;
+                Arena& arena, const runtime::ProductObserver* observer = nullptr) const;
+  /// The elements of the inputs. Throws Error if shapes do not fit.
+  std::vector<const float*> checked(const std::vector<Tensor>& inputs) const;
 
-  runtime::Precision precision_;
+  InferenceOptions options_;
   runtime::Program program_;
   runtime::MemoryPlan memory_;
   Index group_;

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -6,6 +7,7 @@
 #include "base/parallel.h"
 #include "nn/kernels/activation/activation.h"
 #include "nn/kernels/epilogue.h"
+#include "nn/kernels/packed/byte_input.h"
 #include "nn/kernels/precision.h"
 #include "nn/kernels/window.h"
 #include "nn/tensor.h"
@@ -21,6 +23,10 @@ struct StepBuffers {
   Parallel& parallel;
 };
 
+/// Is given the left operand of a product, `channels` wide, in f32. `layer` multiplies it.
+using ProductObserver =
+    std::function<void(const std::string& layer, Index rows, const kernels::PanelRows& a, Index channels)>;
+
 /// One kernel call of a compiled graph, with its weights in the layout of the kernel. Immutable: several threads may
 /// run it at once, each with its own buffers.
 class Step {
@@ -33,6 +39,8 @@ class Step {
     static_cast<void>(threads);
     return 0;
   }
+  /// Shows the left operand of the product that int8 can multiply, if the step has one. To be called before run.
+  virtual void observe(const StepBuffers&, const ProductObserver&) const {}
   virtual std::string kernel() const = 0;     ///< its name in reports: "winograd 3x3"
   virtual double flops() const { return 0; }  ///< of one sample, by the definition of the layer
   virtual double weight_bytes() const { return 0; }
@@ -47,11 +55,24 @@ struct ConvolutionFinish {
   bool pool = false;      ///< Winograd only: the maximum of every 2×2
 };
 
+/// How a step multiplies.
+struct Product {
+  kernels::Precision precision = kernels::Precision::f32;
+  const kernels::ChannelRanges* ranges = nullptr;  ///< of the left operand; of int8 only
+  std::string layer{};                             ///< that it is for, for observers and messages
+};
+
+/// Whether a convolution multiplies in another precision than f32. In first layers the rows of a window are so short
+/// that rounding them costs more than the products save.
+inline bool rounds_products(const Window& window) {
+  return window.kh == 1 || window.kw * window.c >= 2 * kernels::kPanel;
+}
+
 // Windows are those of a batch of 1. bias may be an empty handle.
 
 /// `winograd`: by Winograd's algorithm in f32. Requires that it fits the window (winograd_fits).
 StepPointer convolution_step(const Window& window, const Tensor& kernel, const Tensor& bias,
-                             const ConvolutionFinish& finish, bool winograd, kernels::Precision precision);
+                             const ConvolutionFinish& finish, bool winograd, const Product& product);
 StepPointer dense_step(const Tensor& kernel, const Tensor& bias, const ConvolutionFinish& finish,
                        kernels::Precision precision);
 /// With the weights rounded to int8.
@@ -64,19 +85,20 @@ struct DepthwisePart {
   kernels::Clamp clamp = kernels::Clamp::none;
 };
 StepPointer separable_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
-                           const Tensor& bias, const ConvolutionFinish& finish, kernels::Precision precision);
+                           const Tensor& bias, const ConvolutionFinish& finish, const Product& product);
 /// A 1×1 convolution whose output a separable one reads: clamp(x · kernel + bias).
 struct ExpansionPart {
   Tensor kernel, bias{};
   kernels::Clamp clamp = kernels::Clamp::none;
+  Product product{};
 };
 StepPointer expanded_separable_step(const Window& window, const ExpansionPart& expansion,
                                     const DepthwisePart& depthwise, const Tensor& pointwise, const Tensor& bias,
-                                    const ConvolutionFinish& finish, kernels::Precision precision);
+                                    const ConvolutionFinish& finish, const Product& product);
 /// A separable convolution, a clamp, and the maximum of each window of `pool`.
 StepPointer separable_max_pool_step(const Window& window, const DepthwisePart& depthwise, const Tensor& pointwise,
                                     const Tensor& bias, kernels::Clamp clamp, const Window& pool,
-                                    kernels::Precision precision);
+                                    const Product& product);
 StepPointer depthwise_step(const Window& window, const DepthwisePart& depthwise, Index multiplier);
 
 StepPointer pool_step(const Window& window, bool max);

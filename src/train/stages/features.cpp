@@ -5,6 +5,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 #include "io/files/snapshot_path.h"
+#include "train/calibration.h"
 #include "train/stages/reuse_or_make.h"
 #include "train/top_frames.h"
 #include "train/turned_features.h"
@@ -35,9 +36,12 @@ const BackboneWithOrigin& FeaturesStage::backbone(const std::string& name, const
   const std::string key = name + "/" + layer;
   const auto found = backbones_.find(key);
   if (found != backbones_.end()) return found->second;
-  return backbones_
-      .emplace(key, backbone_from_folder(name, layer, run_.config.weights.folder, run_.seed(), run_.inference))
-      .first->second;
+  const auto& folder = run_.config.weights.folder;
+  if (run_.inference.precision != runtime::Precision::int8)
+    return backbones_.emplace(key, backbone_from_folder(name, layer, folder, run_.seed(), run_.inference))
+        .first->second;
+  const BackboneWithOrigin exact = backbone_from_folder(name, layer, folder, run_.seed());
+  return backbones_.emplace(key, calibrated(exact, run_.dataset, kCalibrationImages, run_.messages)).first->second;
 }
 
 std::string FeaturesStage::fingerprint(const std::string& name, const std::string& layer) {
@@ -66,8 +70,7 @@ const Features& FeaturesStage::turned_features(const std::string& name, const st
   const BackboneWithOrigin& source = backbone(name, layer);
   const FeaturesOrigin origin = turned_features_origin(source, run_.dataset_fingerprint);
   return stored(turned_features_file(run_.folder, name, layer), origin, "turned features of " + name, [&] {
-    return extract_turned_features(source.backbone, run_.dataset, origin, run_.inference, run_.messages,
-                                   run_.communicator);
+    return extract_turned_features(source.backbone, run_.dataset, origin, run_.messages, run_.communicator);
   });
 }
 

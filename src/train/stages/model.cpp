@@ -60,6 +60,7 @@ Model untrained_model(const Config& config, const Backbone& backbone, const std:
           .preprocessing = backbone.preprocessing(),
           .backbone_graph = backbone.graph(),
           .backbone_parameters = backbone.parameters(),
+          .backbone_ranges = backbone.network().options().ranges,
           .angles = config.sv_net.angles,
           .symmetries = scored_orientations(config),
           .head = camera_head(config, backbone),
@@ -79,10 +80,10 @@ std::unique_ptr<ViewInputs> training_inputs(const Run& run, FeaturesStage& featu
   if (std::holds_alternative<InputLayer>(graph.node(from).layer))
     return std::make_unique<ImageInputs>(run.dataset, backbone.preprocessing(), nullptr,
                                          ImageInputs::Options{.orientations = orientations});
-  auto inputs =
-      std::make_unique<ImageInputs>(run.dataset, backbone.preprocessing(),
-                                    std::make_shared<Inference>(graph, backbone.parameters(), from, run.inference),
-                                    ImageInputs::Options{.orientations = orientations, .flat = all_frozen});
+  auto inputs = std::make_unique<ImageInputs>(
+      run.dataset, backbone.preprocessing(),
+      std::make_shared<Inference>(graph, backbone.parameters(), from, backbone.network().options()),
+      ImageInputs::Options{.orientations = orientations, .flat = all_frozen});
   std::vector<Index> top_views;
   for (const auto& pose : run.dataset.poses)
     if (!run.held_out[static_cast<std::size_t>(pose.category)]) top_views.push_back(pose.top_view);

@@ -17,11 +17,11 @@ std::unique_ptr<ViewInputs> head_inputs(const Run& run, FeaturesStage& features,
   const Config& config = run.config;
   if (config.training.fine_tune == FineTune::none && model.symmetries == 1)
     return std::make_unique<FeatureInputs>(run.dataset, features.features(config.sv_net.backbone, config.sv_net.layer));
-  return std::make_unique<ImageInputs>(
-      run.dataset, model.preprocessing,
-      std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
-                                  model.backbone_graph.find(model.backbone_output), run.inference),
-      ImageInputs::Options{.orientations = model.symmetries, .flat = true});
+  return std::make_unique<ImageInputs>(run.dataset, model.preprocessing,
+                                       std::make_shared<Inference>(model.backbone_graph, model.backbone_parameters,
+                                                                   model.backbone_graph.find(model.backbone_output),
+                                                                   inference_options(model, run.inference)),
+                                       ImageInputs::Options{.orientations = model.symmetries, .flat = true});
 }
 
 /// The camera poses of the views of a pose.

@@ -2,13 +2,11 @@
 // in registers. This is the only file that compiles it, once for each instruction set.
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "nn/kernels/packed/f32_tile.cpp"
-#include <algorithm>
 #include <array>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "base/aligned.h"
 #include "nn/kernels/packed/panel_vector-inl.h"
 #include "nn/kernels/packed/tile_kernels.h"
 
@@ -30,11 +28,6 @@ inline constexpr int kTileRows = 6, kTilePanels = 1;
 #endif
 static_assert(kTileRows <= kMostTileRows && kTilePanels <= kMostTilePanels);
 
-/// Offset of vector v within panels that are `panel_stride` apart.
-constexpr Index in_panel(int v, Index panel_stride) {
-  return v / kVectorsPerPanel * panel_stride + v % kVectorsPerPanel * kLanes;
-}
-
 /// sum (kRows, kVectors · lanes) += a (kRows, depth) · panels, in order of depth: the sums of a row do not depend on
 /// the other rows.
 template <int kRows, int kVectors>
@@ -51,34 +44,6 @@ HWY_INLINE void multiply_run(Index depth, const float* HWY_RESTRICT a, Index row
       unrolled<kVectors>([&](auto v) HWY_ATTR { sum[r][v] = hn::MulAdd(x, b[v], sum[r][v]); });
     });
   }
-}
-
-/// How many lanes of vector v lie within the first `columns` columns of a tile.
-template <class I>
-HWY_INLINE std::size_t lanes_within(I v, Index columns) {
-  return static_cast<std::size_t>(HWY_MIN(HWY_MAX(columns - v * kLanes, Index{0}), kLanes));
-}
-
-/// Loads or stores the first `count` elements at p, which need not be aligned, and touches nothing after them.
-HWY_INLINE PanelVector load_first(std::size_t count, const float* p) {
-  const PanelTag d;
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-  return hn::MaskedLoad(hn::FirstN(d, count), d, p);
-#else
-  alignas(kAlignment) float lanes[kPanel] = {};
-  std::copy_n(p, count, lanes);
-  return hn::Load(d, lanes);
-#endif
-}
-HWY_INLINE void store_first(std::size_t count, PanelVector value, float* p) {
-  const PanelTag d;
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-  hn::BlendedStore(value, hn::FirstN(d, count), d, p);
-#else
-  alignas(kAlignment) float lanes[kPanel];
-  hn::Store(value, d, lanes);
-  std::copy_n(lanes, count, p);
-#endif
 }
 
 /// A MultiplyTile (panel.h) of kRows rows and kPanels panels. kWhole: it has all columns of its panels.

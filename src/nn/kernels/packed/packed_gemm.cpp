@@ -3,20 +3,44 @@
 #include <algorithm>
 
 #include "nn/kernels/packed/bf16_tile.h"
+#include "nn/kernels/packed/int8_tile.h"
 #include "nn/kernels/packed/tile_kernels.h"
 
 namespace svnet::kernels {
 namespace {
 
+TileKernels tiles_of(Precision precision) {
+  switch (precision) {
+    case Precision::f32:
+      break;
+    case Precision::bf16:
+      return bf16_tiles();
+    case Precision::int8:
+      return int8_tiles();
+  }
+  return f32_tiles();
+}
+
+/// Products that are summed before the sums go to memory. Tiles of bytes sum all at once; a quad is four products.
+Index depth_together(const PackedWeights& weights) {
+  return weights.precision == Precision::int8 ? weights.panel_rows : kPackedDepth;
+}
+
 /// `count` panels of weights from panel p on. n may end within the last one.
 void multiply_together(const TileKernels& kernels, Index count, Index rows, const PanelRows& a,
                        const PackedWeights& weights, Index p, const PackedFinish& finish, float* c) {
-  const Index n = weights.n;
+  const Index n = weights.n, together = depth_together(weights);
+  const bool is_int8 = weights.precision == Precision::int8;
   const auto [low, high] = range_of(finish.clamp);
-  const TileFinish tile_finish{weights.bias.get() + p * kPanel,
-                               finish.residual == nullptr ? nullptr : finish.residual + p * kPanel, n, low, high};
-  for (Index begin = 0; begin < weights.panel_rows; begin += kPackedDepth) {
-    const Index run = std::min(kPackedDepth, weights.panel_rows - begin);
+  const TileFinish tile_finish{.bias = weights.bias.get() + p * kPanel,
+                               .residual = finish.residual == nullptr ? nullptr : finish.residual + p * kPanel,
+                               .residual_stride = n,
+                               .low = low,
+                               .high = high,
+                               .start = is_int8 ? weights.start.data() + p * kPanel : nullptr,
+                               .scale = is_int8 ? weights.scale.get() + p * kPanel : nullptr};
+  for (Index begin = 0; begin < weights.panel_rows; begin += together) {
+    const Index run = std::min(together, weights.panel_rows - begin);
     PanelRows part = a;
     part.data += begin / a.run * a.block_stride;
     multiply_panels(kernels, count, rows, part, run, weights.panel(p) + begin * kPanel, weights.panel_rows * kPanel,
@@ -33,20 +57,39 @@ void multiply_together(const TileKernels& kernels, Index count, Index rows, cons
 
 void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
                      const PackedFinish& finish, float* c, float* scratch) {
-  PanelRows left = a;
-  if (weights.precision == Precision::bf16) {
-    left = {scratch, packed_row_stride(weights.panel_rows), kPanel};
-    round_to_pairs(rows, a, weights.depth, scratch, left.row_stride);
+  const PanelRows rounded{scratch, packed_row_stride(weights.panel_rows), kPanel};
+  switch (weights.precision) {
+    case Precision::f32:
+      return packed_multiply_rounded(rows, a, weights, first, last, finish, c);
+    case Precision::bf16:
+      round_to_pairs(rows, a, weights.depth, scratch, rounded.row_stride);
+      break;
+    case Precision::int8:
+      round_to_quads(rows, a, weights.depth, weights.input, scratch, rounded.row_stride);
+      break;
   }
-  const TileKernels kernels = weights.precision == Precision::bf16 ? bf16_tiles() : f32_tiles();
+  packed_multiply_rounded(rows, rounded, weights, first, last, finish, c);
+}
+
+void packed_multiply_rounded(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
+                             const PackedFinish& finish, float* c) {
+  const TileKernels kernels = tiles_of(weights.precision);
   Index p = first;
   for (; p + kernels.panels <= last; p += kernels.panels)
-    multiply_together(kernels, kernels.panels, rows, left, weights, p, finish, c);
-  for (; p < last; ++p) multiply_together(kernels, 1, rows, left, weights, p, finish, c);
+    multiply_together(kernels, kernels.panels, rows, a, weights, p, finish, c);
+  for (; p < last; ++p) multiply_together(kernels, 1, rows, a, weights, p, finish, c);
 }
 
 Index packed_scratch(Index rows, Index depth, Precision precision) {
-  return precision == Precision::bf16 ? rows * packed_row_stride(pairs(depth)) : 0;
+  switch (precision) {
+    case Precision::f32:
+      break;
+    case Precision::bf16:
+      return rows * packed_row_stride(pairs(depth));
+    case Precision::int8:
+      return rows * packed_row_stride(quads(depth));
+  }
+  return 0;
 }
 
 Index packed_most_rows(Index depth) { return std::clamp<Index>(144 * 1024 / std::max<Index>(depth, 1), 24, 192); }

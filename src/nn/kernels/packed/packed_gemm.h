@@ -20,6 +20,9 @@ inline constexpr Index kPackedDepth = 2048;
 /// end; scratch holds packed_scratch floats.
 void packed_multiply(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
                      const PackedFinish& finish, float* c, float* scratch = nullptr);
+/// The same for rows that are as weights.precision needs them: pairs in bf16, quads in int8.
+void packed_multiply_rounded(Index rows, const PanelRows& a, const PackedWeights& weights, Index first, Index last,
+                             const PackedFinish& finish, float* c);
 /// Returns 0 for f32.
 Index packed_scratch(Index rows, Index depth, Precision precision);
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "base/index.h"
 
 namespace svnet::kernels {
@@ -27,6 +29,9 @@ struct TileFinish {
   const float* residual;  // (rows, columns), or nullptr
   Index residual_stride;
   float low, high;
+  // Products of bytes only (int8_tile.h), of the tile's columns: the sum is (start + sum of the products) · scale.
+  const std::int32_t* start = nullptr;
+  const float* scale = nullptr;
 };
 
 /// Where a tile is stored. If finish has a residual, panel_stride must be 16.

@@ -7,10 +7,12 @@
 #define SVNET_PANEL_VECTOR_INL_H_
 #endif
 
+#include <algorithm>
 #include <utility>
 
 #include <hwy/highway.h>
 
+#include "base/aligned.h"
 #include "nn/kernels/packed/panel.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -52,6 +54,39 @@ HWY_INLINE V clamped(V y, V low, V high) {
 #else
   y = at_least(low, y);
   return hn::IfThenElse(hn::Gt(y, high), high, y);
+#endif
+}
+
+/// Offset of vector v within panels that are `panel_stride` apart.
+constexpr Index in_panel(int v, Index panel_stride) {
+  return v / kVectorsPerPanel * panel_stride + v % kVectorsPerPanel * kLanes;
+}
+
+/// How many lanes of vector v lie within the first `columns` columns of a tile.
+template <class I>
+HWY_INLINE std::size_t lanes_within(I v, Index columns) {
+  return static_cast<std::size_t>(HWY_MIN(HWY_MAX(columns - v * kLanes, Index{0}), kLanes));
+}
+
+/// Loads or stores the first `count` elements at p, which need not be aligned, and touches nothing after them.
+HWY_INLINE PanelVector load_first(std::size_t count, const float* p) {
+  const PanelTag d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  return hn::MaskedLoad(hn::FirstN(d, count), d, p);
+#else
+  alignas(kAlignment) float lanes[kPanel] = {};
+  std::copy_n(p, count, lanes);
+  return hn::Load(d, lanes);
+#endif
+}
+HWY_INLINE void store_first(std::size_t count, PanelVector value, float* p) {
+  const PanelTag d;
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+  hn::BlendedStore(value, hn::FirstN(d, count), d, p);
+#else
+  alignas(kAlignment) float lanes[kPanel];
+  hn::Store(value, d, lanes);
+  std::copy_n(lanes, count, p);
 #endif
 }
 

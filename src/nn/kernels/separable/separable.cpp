@@ -7,7 +7,8 @@
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
 
-#include "nn/kernels/packed/panel_vector-inl.h"
+#include "nn/kernels/packed/bytes-inl.h"
+#include "nn/kernels/packed/int8_tile.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::kernels {
@@ -38,6 +39,12 @@ struct VectorBounds {
   }
 };
 
+/// Stores a result: as it is, limited, or as bytes, whose own limits serve.
+HWY_INLINE void store_result(PanelVector y, const VectorBounds& limits, float* to) {
+  hn::Store(clamped(y, limits.low, limits.high), PanelTag(), to);
+}
+HWY_INLINE void store_result(PanelVector y, const VectorBounds&, std::uint8_t* to) { store_bytes(y, to); }
+
 template <bool kRelu>
 HWY_INLINE PanelVector input_vector(const float* x) {
   const PanelTag d;
@@ -66,9 +73,9 @@ HWY_INLINE void add_taps(const Window& win, const Taps& t, const float* taps, co
 
 /// The channels [c0, c1) of kCount neighbouring output pixels, for any window. x points at tap (0, 0) of the first
 /// pixel; the panels of y are `apart` pixels apart.
-template <int kCount, bool kRelu>
+template <int kCount, bool kRelu, class Result>
 HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const DepthwiseTaps& weights, const float* x,
-                                   Index c0, Index c1, float* y, Index apart) {
+                                   Index c0, Index c1, Result* y, Index apart) {
   const PanelTag d;
   const VectorBounds limits(weights.clamp);
   for (Index c = c0; c < c1; c += kPanel, y += kPanel * apart) {
@@ -79,9 +86,8 @@ HWY_NOINLINE void depthwise_pixels(const Window& win, const Taps& t, const Depth
     });
     add_taps<kCount, kRelu>(win, t, weights.taps.get() + c, x + c, sum);
     unrolled<kCount>([&](auto p) HWY_ATTR {
-      unrolled<kVectorsPerPanel>([&](auto v) HWY_ATTR {
-        hn::Store(clamped(sum[p][v], limits.low, limits.high), d, y + p * kPanel + v * kLanes);
-      });
+      unrolled<kVectorsPerPanel>([&](auto v)
+                                     HWY_ATTR { store_result(sum[p][v], limits, y + p * kPanel + v * kLanes); });
     });
   }
 }
@@ -100,11 +106,10 @@ struct RowRun {
 
 /// One vector of channels of kPixels neighbouring pixels, from number `first` of the run on: each input is read once
 /// for all pixels that share it. w holds the taps. Unless kMayBeCut, all windows lie within the image.
-template <bool kRelu, int kStride, int kRows, bool kMayBeCut>
+template <bool kRelu, int kStride, int kRows, bool kMayBeCut, class Result>
 HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, bool cut_left, bool cut_right,
                               const PanelVector (&w)[kRows][3], const PanelVector bias, const VectorBounds& limits,
-                              float* y) {
-  const PanelTag d;
+                              Result* y) {
   constexpr int kColumns = (kPixels - 1) * kStride + 3;
   x += first * kStride * run.pixel_stride;
   y += first * kPanel;
@@ -120,14 +125,14 @@ HWY_INLINE void three_columns(const RowRun& run, const float* x, Index first, bo
       });
     });
   });
-  unrolled<kPixels>([&](auto p) HWY_ATTR { hn::Store(clamped(sum[p], limits.low, limits.high), d, y + p * kPanel); });
+  unrolled<kPixels>([&](auto p) HWY_ATTR { store_result(sum[p], limits, y + p * kPanel); });
 }
 
 /// The channels [c0, c1) of `count` pixels, at least kPixels, of which kRows rows of taps lie in the image. The run's
 /// x, taps and bias point at channel 0.
-template <bool kRelu, int kStride, int kRows>
+template <bool kRelu, int kStride, int kRows, class Result>
 HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c1, Index count,
-                                            const VectorBounds& given, float* y, Index apart) {
+                                            const VectorBounds& given, Result* y, Index apart) {
   const PanelTag d;
   const VectorBounds limits = given;
   const Index last = count - kPixels;
@@ -153,14 +158,15 @@ HWY_NOINLINE HWY_FLATTEN void row_of_threes(const RowRun& run, Index c0, Index c
 }
 
 /// [rows - 1]: by the number of rows of taps that lie in the image.
-template <bool kRelu, int kStride>
-constexpr decltype(&row_of_threes<kRelu, kStride, 3>) kRowsOfThrees[] = {
-    &row_of_threes<kRelu, kStride, 1>, &row_of_threes<kRelu, kStride, 2>, &row_of_threes<kRelu, kStride, 3>};
+template <bool kRelu, int kStride, class Result>
+constexpr decltype(&row_of_threes<kRelu, kStride, 3, Result>) kRowsOfThrees[] = {
+    &row_of_threes<kRelu, kStride, 1, Result>, &row_of_threes<kRelu, kStride, 2, Result>,
+    &row_of_threes<kRelu, kStride, 3, Result>};
 
 /// Output positions [begin, end) as [C / 16][end - begin][16].
-template <bool kRelu>
+template <bool kRelu, class Result>
 HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
-                                float* y) {
+                                Result* y) {
   const auto [inner0, inner1] = win.inner_columns();
   // How many columns the last window reaches out of the image.
   const Index right = (win.ow - 1) * win.stride_w - win.left + win.kw - win.w;
@@ -171,7 +177,7 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
   // A few panels of channels at a time: their part of the input rows stays in L1 from one output row to the next.
   for (Index c0 = 0; c0 < win.c; c0 += kChannels) {
     const Index c1 = HWY_MIN(c0 + kChannels, win.c);
-    float* to = y + c0 * apart;
+    Result* to = y + c0 * apart;
     for (Index position = begin; position < end;) {
       const Index row = position / win.ow, n = row / win.oh, h = row % win.oh * win.stride_h - win.top;
       const Index start = position % win.ow, stop = HWY_MIN(win.ow, start + end - position);
@@ -188,7 +194,7 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
                          .cut_left = (start < inner0),
                          .cut_right = (stop > inner1)};
         if constexpr (kHasVectors) {
-          const auto& by_rows = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1> : kRowsOfThrees<kRelu, 2>;
+          const auto& by_rows = win.stride_w == 1 ? kRowsOfThrees<kRelu, 1, Result> : kRowsOfThrees<kRelu, 2, Result>;
           by_rows[taps.kh1 - taps.kh0 - 1](run, c0, c1, stop - start, limits, to, apart);
         }
       } else {
@@ -215,12 +221,22 @@ HWY_INLINE void depthwise_block(const Window& win, const DepthwiseTaps& weights,
   }
 }
 
-void depthwise_positions(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
-                         float* y) {
+template <class Result>
+HWY_INLINE void depthwise_to(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
+                             Result* y) {
   if (weights.relu_input)
     depthwise_block<true>(win, weights, x, begin, end, y);
   else
     depthwise_block<false>(win, weights, x, begin, end, y);
+}
+
+void depthwise_positions(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
+                         float* y) {
+  depthwise_to(win, weights, x, begin, end, y);
+}
+void depthwise_bytes(const Window& win, const DepthwiseTaps& weights, const float* x, Index begin, Index end,
+                     float* y) {
+  depthwise_to(win, weights, x, begin, end, reinterpret_cast<std::uint8_t*>(y));
 }
 
 }  // namespace HWY_NAMESPACE
@@ -231,15 +247,28 @@ HWY_AFTER_NAMESPACE();
 namespace svnet::kernels {
 
 HWY_EXPORT(depthwise_positions);
+HWY_EXPORT(depthwise_bytes);
 
 DepthwiseTaps depthwise_taps(Index kh, Index kw, Index c, const float* w, const float* bias) {
   const Index padded = panels(c) * kPanel;
-  DepthwiseTaps taps{.channels = c, .taps = aligned_floats(kh * kw * padded), .bias = aligned_floats(padded)};
+  DepthwiseTaps taps{
+      .channels = c, .count = kh * kw, .taps = aligned_floats(kh * kw * padded), .bias = aligned_floats(padded)};
   std::fill_n(taps.taps.get(), kh * kw * padded, 0.0f);
   std::fill_n(taps.bias.get(), padded, 0.0f);
   for (Index tap = 0; tap < kh * kw; ++tap) std::copy_n(w + tap * c, c, taps.taps.get() + tap * padded);
   if (bias != nullptr) std::copy_n(bias, c, taps.bias.get());
   return taps;
+}
+
+void round_taps(const ByteInput& input, DepthwiseTaps& taps) {
+  const Index padded = panels(taps.channels) * kPanel;
+  for (Index i = 0; i < taps.count * padded; ++i) taps.taps.get()[i] *= input.factor.get()[i % padded];
+  for (Index c = 0; c < padded; ++c)
+    taps.bias.get()[c] = taps.bias.get()[c] * input.factor.get()[c] + input.zero.get()[c];
+}
+
+void depthwise_rows(const Window& window, const DepthwiseTaps& taps, const float* x, Index begin, Index end, float* y) {
+  HWY_DYNAMIC_DISPATCH(depthwise_positions)(window, taps, x, begin, end, y);
 }
 
 Index separable_scratch(const Window& window, int threads, Precision precision) {
@@ -251,12 +280,17 @@ void separable_positions(const Window& window, const float* x, const DepthwiseTa
                          const PackedWeights& pointwise, PackedFinish finish, Index begin, Index end, float* y,
                          float* scratch) {
   const Index most = packed_most_rows(window.c), blocks = (end - begin + most - 1) / most;
-  const Index block = blocks == 0 ? 1 : (end - begin + blocks - 1) / blocks;
+  const Index block = blocks == 0 ? 1 : (end - begin + blocks - 1) / blocks, all = panels(pointwise.n);
   float* rounded = scratch + most * panels(window.c) * kPanel;
   for (; begin < end; begin += block) {
     const Index rows = std::min(block, end - begin);
-    HWY_DYNAMIC_DISPATCH(depthwise_positions)(window, depthwise, x, begin, begin + rows, scratch);
-    packed_multiply(rows, {scratch, kPanel, kPanel * rows}, pointwise, 0, panels(pointwise.n), finish, y, rounded);
+    if (pointwise.precision == Precision::int8) {
+      HWY_DYNAMIC_DISPATCH(depthwise_bytes)(window, depthwise, x, begin, begin + rows, scratch);
+      packed_multiply_rounded(rows, {scratch, kPanel / 4, kPanel / 4 * rows, kPanel / 4}, pointwise, 0, all, finish, y);
+    } else {
+      depthwise_rows(window, depthwise, x, begin, begin + rows, scratch);
+      packed_multiply(rows, {scratch, kPanel, kPanel * rows}, pointwise, 0, all, finish, y, rounded);
+    }
     if (finish.residual != nullptr) finish.residual += rows * pointwise.n;
     y += rows * pointwise.n;
   }
