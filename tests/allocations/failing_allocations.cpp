@@ -64,7 +64,8 @@ std::string frail_library(std::span<void* const> stack) {
 }
 
 /// The same for all allocations that failed, of which the first and the last are known.
-std::string frail_library(const Load& load) {
+std::string frail_library(const Load& load, bool is_crash) {
+  if (is_crash && load.destroys_json) return "nlohmann::json";
   if (load.is_alone) return "libhdf5 in svnet's process";
   const std::string first = frail_library(first_failed_stack());
   return first.empty() ? frail_library(last_failed_stack()) : first;
@@ -174,12 +175,14 @@ void run(const Load& load, Kind kind, std::size_t step, Sums& sums) {
     }
     int status = 0;
     if (child < 0 || ::waitpid(child, &status, 0) < 0) throw std::runtime_error("no process for the attempts");
+    const bool is_aborted = WIFSIGNALED(status) && WTERMSIG(status) == SIGABRT;
     if (WIFSIGNALED(status)) {
+      if (WTERMSIG(status) == SIGALRM) progress.is_own = true;
       ++progress.failed;
       find(progress, WTERMSIG(status) == SIGALRM ? "hangs" : joined("crashes (", ::strsignal(WTERMSIG(status)), ")"));
     }
     if (progress.finding[0] == '\0') continue;
-    if (const std::string library = frail_library(load); !progress.is_own && !library.empty()) {
+    if (const std::string library = frail_library(load, is_aborted); !progress.is_own && !library.empty()) {
       ++sums.in_libraries[library];
       continue;
     }

@@ -215,7 +215,11 @@ Load written(const std::string& name, const fs::path& folder, const std::functio
   const std::string before = "what was there before";
   const auto put_before = [=] { std::ofstream(path, std::ios::binary) << before; };
   put_before();
-  return {name, [=] { return write(path), std::uint64_t{0}; }, Where::here, true,
+  return {name,
+          [=] { return write(path), std::uint64_t{0}; },
+          Where::here,
+          true,
+          false,
           [=] {
             const auto count = std::distance(fs::directory_iterator(folder), fs::directory_iterator());
             const std::string contents = io::whole_file(path);
@@ -267,7 +271,9 @@ std::vector<Load> all_loads(const fs::path& seeds, const fs::path& work) {
   std::vector<Load> loads;
   for (const char* model : {"radians_f32", "harmonics_bf16", "turned_int8", "depth_f32"}) {
     loads.push_back(plain("svnet_model_load", load_by_c, seeds / "c_api" / model));
+    loads.back().destroys_json = true;
     loads.push_back({std::string("model ") + model, [=] { return digest(io::read_model(seeds / "c_api" / model)); }});
+    loads.back().destroys_json = true;
   }
   loads.push_back(plain("safetensors", load_safetensors, seeds / "safetensors/turned"));
   for (const char* keras : {"keras_legacy.h5", "keras3_nested.weights.h5"})

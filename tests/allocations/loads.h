@@ -17,6 +17,9 @@ struct Load {
   Where where = Where::here;
   /// Whether each attempt needs a process of its own, because a library does not work any more after one.
   bool is_alone = false;
+  /// Whether the compiler puts a destructor of nlohmann::json into a function of svnet's own, so that a crash in it
+  /// cannot be told from one of svnet's.
+  bool destroys_json = false;
   /// What is wrong afterwards, such as a partial file; empty if nothing is.
   std::function<std::string()> problem = [] { return std::string(); };
 };
