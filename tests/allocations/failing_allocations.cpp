@@ -159,6 +159,8 @@ void run(const Load& load, Kind kind, std::size_t step, Sums& sums) {
   auto& progress = *new (memory) Progress;
   progress.step = step;
   constexpr std::size_t kMostFindings = 20;
+  constexpr int kMostAgain = 3;
+  int again = 0;
   std::size_t findings = 0;
   for (progress.number = 1; !progress.is_done && findings < kMostFindings; progress.number += step) {
     progress.finding[0] = '\0';
@@ -182,6 +184,13 @@ void run(const Load& load, Kind kind, std::size_t step, Sums& sums) {
       find(progress, WTERMSIG(status) == SIGALRM ? "hangs" : joined("crashes (", ::strsignal(WTERMSIG(status)), ")"));
     }
     if (progress.finding[0] == '\0') continue;
+    // Sometimes it is not known who asked. Then the attempt is made again.
+    if (!progress.is_own && first_failed_stack().empty() && again < kMostAgain) {
+      ++again;
+      progress.number -= progress.step;
+      continue;
+    }
+    again = 0;
     if (const std::string library = frail_library(load, is_aborted); !progress.is_own && !library.empty()) {
       ++sums.in_libraries[library];
       continue;

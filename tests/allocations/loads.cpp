@@ -276,6 +276,7 @@ std::vector<Load> all_loads(const fs::path& seeds, const fs::path& work) {
     loads.back().destroys_json = true;
   }
   loads.push_back(plain("safetensors", load_safetensors, seeds / "safetensors/turned"));
+  loads.back().destroys_json = true;
   for (const char* keras : {"keras_legacy.h5", "keras3_nested.weights.h5"})
     add_decoded(loads, "Keras", load_keras, seeds / "keras" / keras);
   add_decoded(loads, "HDF5", load_features, seeds / "hdf5_tables/features");
