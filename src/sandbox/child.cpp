@@ -29,11 +29,10 @@ void send_text(Channel& channel, std::uint32_t kind, std::string_view text) {
 std::string line_of(const Message& message) { return printable(text_of(message.bytes)); }
 
 /// The life of the child. Nothing of the parent's is cleaned up in it: its destructors and exit handlers never run.
-[[noreturn]] void live(Channel& channel, std::vector<int> kept, const Limits& limits,
-                       const std::function<void(Channel&)>& body) {
+[[noreturn]] void live(Channel& channel, std::span<const int> kept, const Limits& limits,
+                       const std::function<void(Channel&)>& body) noexcept {
   try {
     try {
-      kept.push_back(channel.number());
       if (const std::string refused = confine_this_process(kept, limits); !refused.empty()) {
         send_text(channel, kNoSandbox, refused);
         ::_exit(0);
@@ -93,8 +92,10 @@ Child::Child(Task task, std::span<const int> descriptors, const Limits& limits,
     const std::lock_guard lock(only_one);
     bulk_ = std::make_unique<Bulk>();
     Channel channel(std::move(there), *bulk_, std::nullopt);
+    std::vector<int> kept(descriptors.begin(), descriptors.end());
+    kept.push_back(channel.number());
     process_ = Process(::fork());
-    if (process_.is_this()) live(channel, {descriptors.begin(), descriptors.end()}, limits, body);
+    if (process_.is_this()) live(channel, kept, limits, body);
     bulk_->keep_from_later_processes();
   }
   channel_ = std::make_unique<Channel>(std::move(here), *bulk_, limits.answer_time);
@@ -102,6 +103,7 @@ Child::Child(Task task, std::span<const int> descriptors, const Limits& limits,
   try {
     const Message first = channel_->receive();
     if (first.kind == kNoSandbox) refuse(line_of(first));
+    if (first.kind == kNoMemory) fail_memory();
     if (first.kind != kReady) refuse_answer();
   } catch (const ChannelClosed& closed) {
     fail_closed(closed);

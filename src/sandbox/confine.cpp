@@ -3,16 +3,18 @@
 #include <algorithm>
 #include <cerrno>
 #include <csignal>
-#include <fstream>
+#include <cstdlib>
 #include <system_error>
 #include <vector>
 
+#include <fcntl.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
 #include "base/error.h"
+#include "sandbox/descriptor.h"
 #include "sandbox/syscall_filter.h"
 
 namespace svnet::sandbox {
@@ -71,10 +73,12 @@ bool set_limit(int resource, std::uint64_t value, std::uint64_t grace = 0) {
   return ::setrlimit(static_cast<__rlimit_resource>(resource), &limit) == 0;
 }
 
-/// The addresses that the process uses, in bytes; 0 if the system does not say.
+/// The addresses that the process uses, in bytes; 0 if the system does not say. Allocates nothing.
 std::uint64_t used_addresses() {
-  std::uint64_t pages = 0;
-  std::ifstream("/proc/self/statm") >> pages;
+  char text[32] = "";
+  const Descriptor file(::open("/proc/self/statm", O_RDONLY | O_CLOEXEC));
+  if (file.number() < 0 || ::read(file.number(), text, sizeof text - 1) <= 0) return 0;
+  const std::uint64_t pages = std::strtoull(text, nullptr, 10);
   return pages * static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
 }
 

@@ -21,6 +21,25 @@ TEST_CASE("a second svnet-train in a run folder is refused, until the first has 
   CHECK_THAT(ran.err, Contains("svnet-train: run: another svnet-train is at work in this run folder"));
 }
 
+// The lock is the kernel's, and knows no names of hosts: two containers that share a folder keep each other away as two
+// processes do.
+TEST_CASE("a second host in a run folder is refused") {
+  const Workplace place;
+  if (place.run("unshare --uts true").status != 0) {
+    WARN("this user cannot give a process another host name: nothing is tested");
+    return;
+  }
+  const Ran ran = place.run(
+      "svnet-train config.yaml --output run --threads 1 --set training.epochs=100000 >first 2>&1 & first=$!; "
+      "for i in $(seq 600); do grep -q 'epoch 1/' run/log.txt 2>/dev/null && break; sleep 0.1; done; "
+      "unshare --uts sh -c 'hostname elsewhere && hostname && exec svnet-train config.yaml --output run --threads 1 "
+      "--quiet'; "
+      "echo \"second $?\"; kill -KILL $first; wait $first");
+  INFO(ran.out << ran.err);
+  CHECK_THAT(ran.out, Contains("elsewhere") && Contains("second 1"));
+  CHECK_THAT(ran.err, Contains("svnet-train: run: another svnet-train is at work in this run folder"));
+}
+
 TEST_CASE("a training that is told to end saves its state, and the next one goes on from it") {
   const Workplace place;
   const Ran ran = place.run(

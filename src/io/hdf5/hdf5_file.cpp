@@ -1,5 +1,6 @@
 #include "io/hdf5/hdf5_file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <string_view>
 #include <system_error>
@@ -33,8 +34,9 @@ std::uint64_t size_of_regular_file(const fs::path& path) {
 /// Whether an HDF5 file begins at one of the places where one may (after a user block of 512, 1024, … bytes).
 bool has_signature(const fs::path& path, std::uint64_t size) {
   constexpr std::string_view kSignature("\x89HDF\r\n\x1a\n", 8);
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
-  check(file.is_open(), path.string(), ": cannot be read: no permission");
+  check(file.is_open(), path.string(), ": cannot be read: ", std::generic_category().message(errno));
   for (std::uint64_t start = 0; start + kSignature.size() <= size; start = start == 0 ? 512 : 2 * start) {
     char found[kSignature.size()]{};
     file.seekg(static_cast<std::streamoff>(start));

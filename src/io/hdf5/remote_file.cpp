@@ -1,6 +1,7 @@
 #include "io/hdf5/remote_file.h"
 
 #include <cerrno>
+#include <new>
 #include <system_error>
 
 #include <fcntl.h>
@@ -58,13 +59,17 @@ RemoteFile::RemoteFile(const std::filesystem::path& path, std::uint64_t size) : 
 }
 
 void RemoteFile::answer(const Request& request, Sink& sink) {
+  if (child_ == nullptr && failure_.empty()) throw std::bad_alloc();
   check(child_ != nullptr, failure_);
   std::string error;
   try {
     error = ask(*child_, request, sink);
-  } catch (const std::exception& failure) {
-    failure_ = failure.what();
+  } catch (const std::bad_alloc&) {
     child_.reset();
+    throw;
+  } catch (const std::exception& failure) {
+    child_.reset();
+    failure_ = failure.what();
     throw;
   }
   if (!error.empty()) fail(error.starts_with(name_) ? "" : name_ + ": ", error);

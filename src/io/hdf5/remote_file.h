@@ -20,7 +20,7 @@ class RemoteFile {
  private:
   std::string name_;
   std::unique_ptr<sandbox::Child> child_;
-  std::string failure_;
+  std::string failure_;  // of a child that is gone; empty: memory was missing
 };
 
 }  // namespace svnet::io::hdf5

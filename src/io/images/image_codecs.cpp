@@ -3,9 +3,11 @@
 #include <algorithm>
 #include <cerrno>
 #include <fstream>
+#include <new>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/text.h"
 #include "io/files/file_format.h"
 
 namespace svnet::io {
@@ -93,6 +95,8 @@ Image image_of_size(const std::string& name, Index height, Index width) {
 }
 
 void fail_damaged(const std::string& name, const char* kind, const std::string& reason) {
+  const std::string lower = lower_case(reason);
+  if (lower.find("memory") != std::string::npos || lower == "outofmem") throw std::bad_alloc();
   fail(name, ": is a damaged or incomplete ", kind, " image (", reason, "); replace the file");
 }
 

@@ -70,7 +70,8 @@ void check_image_size(const std::string& name, Index height, Index width);
 /// A black image. Throws Error as check_image_size does.
 Image image_of_size(const std::string& name, Index height, Index width);
 
-/// Throws the Error of a file that a codec could not decode, with the codec's `reason`.
+/// Throws the Error of a file that a codec could not decode, with the codec's `reason`; std::bad_alloc if that is a
+/// lack of memory.
 [[noreturn]] void fail_damaged(const std::string& name, const char* kind, const std::string& reason);
 
 }  // namespace svnet::io

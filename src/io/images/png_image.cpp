@@ -31,9 +31,10 @@ class PngDecoder {
         },
         [](png_structp, png_const_charp) {});
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
-    check(info_ != nullptr, "libpng cannot be used: not enough memory, or another version than at compile time");
-    // Only what the pixels need. libpng takes as much memory for the others as the file says that they are long.
-    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
+    if (info_ == nullptr) {
+      png_destroy_read_struct(&png_, nullptr, nullptr);
+      throw std::bad_alloc();
+    }
   }
   ~PngDecoder() { png_destroy_read_struct(&png_, &info_, nullptr); }
   PngDecoder(const PngDecoder&) = delete;
@@ -47,6 +48,8 @@ class PngDecoder {
       std::memcpy(out, decoder->rest_.data(), size);
       decoder->rest_ = decoder->rest_.subspan(size);
     });
+    // Only what the pixels need. libpng takes as much memory for the others as the file says that they are long.
+    png_set_keep_unknown_chunks(png_, PNG_HANDLE_CHUNK_NEVER, nullptr, -1);
     png_read_info(png_, info_);
     return true;
   }

@@ -47,6 +47,8 @@ NodeId add_node(const json& node, Graph& graph) {
         l.visit(l, [&](const char* field, auto& member) {
           try {
             from_json_value(node.at(field), member);
+          } catch (const std::bad_alloc&) {
+            throw;
           } catch (const std::exception& error) {
             fail("attribute '", field, "': ", error.what());
           }
@@ -80,6 +82,8 @@ Graph graph_from_json(const json& nodes, const std::string& where) {
   Graph graph;
   for (std::size_t i = 0; i < nodes.size(); ++i) try {
       add_node(nodes[i], graph);
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception& error) {
       const bool named = nodes[i].is_object() && nodes[i].contains("name") && nodes[i]["name"].is_string();
       fail(where, ": node ", i, named ? " '" + nodes[i]["name"].get<std::string>() + "'" : std::string(), ": ",

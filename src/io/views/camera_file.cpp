@@ -1,8 +1,10 @@
 #include "io/views/camera_file.h"
 
+#include <cerrno>
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <nlohmann/json.hpp>
 
 #include <yaml-cpp/yaml.h>
@@ -85,7 +87,9 @@ Eigen::Isometry3d pose_of(const json& pose, const std::string& name) {
 
 CameraFile read_camera(const std::filesystem::path& path) {
   const std::string name = path.string();
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   check(file && !std::filesystem::is_directory(path), name,
         ": cannot be read; expected a JSON or YAML file of a camera");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};

@@ -1,7 +1,9 @@
 #include "io/views/pose_list_file.h"
 
+#include <cerrno>
 #include <fstream>
 #include <iterator>
+#include <new>
 #include <string>
 #include <string_view>
 
@@ -30,7 +32,9 @@ bool parse_field(std::string_view field, double& number) {
 }  // namespace
 
 std::vector<CameraPose> read_pose_list(const std::filesystem::path& path) {
+  errno = 0;
   std::ifstream file(path, std::ios::binary);
+  if (!file && errno == ENOMEM) throw std::bad_alloc();
   check(file && !std::filesystem::is_directory(path), path.string(), ": cannot be read; expected a CSV file of poses");
   const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
   check(!text.starts_with("\xff\xfe") && !text.starts_with("\xfe\xff"), path.string(),

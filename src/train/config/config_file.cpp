@@ -1,9 +1,11 @@
 #include "train/config/config_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <fstream>
+#include <iterator>
 #include <map>
-#include <sstream>
+#include <new>
 
 #include "base/error.h"
 #include "base/text.h"
@@ -155,12 +157,13 @@ Config parse_config(const std::string& text, const std::string& source, const pa
 
 Config read_config(const path& file, std::span<const std::string> overrides) {
   check(!std::filesystem::is_directory(file), file.string(), ": is a folder, expected a configuration file");
+  errno = 0;
   std::ifstream stream(file, std::ios::binary);
+  if (!stream && errno == ENOMEM) throw std::bad_alloc();
   check(stream.is_open(), file.string(), ": cannot open the configuration file, check its name");
-  std::ostringstream text;
-  text << stream.rdbuf();
+  const std::string text{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
   check(!stream.bad(), file.string(), ": cannot read the configuration file");
-  return parse_config(text.str(), file.string(), std::filesystem::absolute(file).parent_path(), overrides);
+  return parse_config(text, file.string(), std::filesystem::absolute(file).parent_path(), overrides);
 }
 
 std::string to_yaml(const Config& config, const path& folder) {
