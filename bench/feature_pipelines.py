@@ -241,6 +241,15 @@ def by_threads(options, paths, network, picture, spin):
 
 
 def one_process(options, paths, network, picture, spin, results):
+    """Puts the time of its start and its rows into `results`; None if it fails."""
+    try:
+        rows_of_process(options, paths, network, picture, spin, results)
+    except BaseException:
+        results.put(None)
+        raise
+
+
+def rows_of_process(options, paths, network, picture, spin, results):
     import numpy as np
 
     load_modules(options.picture)
@@ -268,8 +277,15 @@ def by_processes(options, paths, network, picture, spin):
                for share, results in zip(shares, queues)]
     for worker in workers:
         worker.start()
-    started = max(results.get() for results in queues)
-    rows = np.concatenate([results.get() for results in queues])
+
+    def next_of(results):
+        value = results.get()
+        if value is None:
+            sys.exit("feature_pipelines.py: a process failed; its error is above")
+        return value
+
+    started = max(next_of(results) for results in queues)
+    rows = np.concatenate([next_of(results) for results in queues])
     for worker in workers:
         worker.join()
     return rows, started

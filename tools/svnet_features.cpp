@@ -54,7 +54,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       .add("--exif-orientation", exif, "ignore: takes pixels as stored; obey: turns them as the EXIF orientation says")
       .one_of(names_of<ExifOrientation>())
       .shows_default();
-  command.add_precision();
+  command.add_precision(true);
   Index calibration = train::kCalibrationImages;
   command
       .add("--calibration", calibration,

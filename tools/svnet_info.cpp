@@ -40,7 +40,7 @@ int main(int argc, char** argv) {
   const Argument asked = command.add_flag("--plan", plan, "Print the steps of the compiled network, timed");
   command.add("--batch", batch, "Images that run together (default 1)").needs(asked).in_range(1, 1024);
   command.add("--layer", layer, "The backbone's layer to stop at (default: the pooled one)").needs(asked);
-  command.add_precision().needs(asked);
+  command.add_precision(true).needs(asked);
   command.add_flag("--tensors", tensors, "Lists the tensors of a model file too").excludes(asked);
   command.add_sandbox();
   return command.run(argc, argv, [&](Console& console) {

@@ -26,7 +26,7 @@
  *
  * Environment: SVNET_THREADS sets the initial number of threads. SVNET_MAX_ISA limits the instruction set.
  * SVNET_PRECISION is "f32" or "bf16" (faster and less exact, for processors with AVX512-BF16); a model that was trained
- * in int8 runs so whatever it says. SVNET_CONVOLUTION is "direct" or "winograd" (default: the faster one).
+ * in int8 runs so whatever it says, and "int8" makes any other SVNET_INVALID_MODEL. SVNET_CONVOLUTION is "direct" or "winograd" (default: the faster one).
  * svnet_model_load reads the last three and returns SVNET_INVALID_ARGUMENT for a wrong value; for SVNET_THREADS the
  * first call that computes does so.
  */

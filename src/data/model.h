@@ -75,11 +75,13 @@ struct Model {
 };
 
 /// `options` for the networks of a model: those of a model stored in int8 keep their dense layers in int8, and a
-/// backbone with ranges multiplies in int8. Throws Error if int8 is asked for and a backbone has no ranges.
+/// backbone with ranges multiplies in int8, with the kernels that were chosen when its features were made. If int8 is
+/// asked for and a backbone has no ranges, compiling it throws Error.
 inline InferenceOptions inference_options(const Model& model, InferenceOptions options = {}) {
   options.int8_dense = options.int8_dense || model.precision == StoredPrecision::int8;
   if (model.backbone_ranges) {
     options.precision = kernels::Precision::int8;
+    options.convolution = kernels::Convolution::automatic;  // decides which products are in int8
     options.ranges = model.backbone_ranges;
   }
   return options;

@@ -155,12 +155,14 @@ class RenderJob {
   void render_poses(io::FreshFolder& folder) {
     Progress progress(messages_, "poses", pose_count());
     // Each thread renders a few poses between two reports, and more once it is known that they take less than seconds:
-    // threads that are done with a block wait for the others. Each pose has its own random numbers.
+    // threads that are done with a block wait for the others. A block is at most twice the last one and 16 times the
+    // first: poses of objects that cannot be read take no time. Each pose has its own random numbers.
     constexpr double kReport_s = 10;
     const Index least = 4 * Parallel::shared().threads();
     for (Index first = 0, count = 0; first < pose_count(); first += count) {
       const double pace = static_cast<double>(first) / std::max(progress.seconds(), 1e-3);
-      count = std::min(std::max(least, static_cast<Index>(kReport_s * pace)), pose_count() - first);
+      const Index most = std::clamp(2 * count, least, 16 * least);
+      count = std::min(std::clamp(static_cast<Index>(kReport_s * pace), least, most), pose_count() - first);
       Parallel::shared().for_chunks(count, 1, [&](Index i, Index, int) { render_pose(first + i, folder); });
       for (Index number = first; number < first + count; ++number) report_pose(number);
       progress.update(first + count);

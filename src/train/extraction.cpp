@@ -50,7 +50,7 @@ class Rows {
   }
 
   void keep(Index end) {
-    if (e_.keep) e_.keep(std::span(rows_).first(static_cast<std::size_t>(end * e_.dimension)));
+    if (e_.keep && end > 0) e_.keep(std::span(rows_).first(static_cast<std::size_t>(end * e_.dimension)));
   }
 
   std::vector<float>& values() { return rows_; }
@@ -119,6 +119,7 @@ void run_in_lanes(const Extraction& e, const Inputs& own, Index batch, Rows& row
   Parallel& parallel = Parallel::shared();
   Lanes lanes(own, batch, e.unit, parallel.threads());
   bool was_stopped = false;
+  Index reported = -1;
   // Parallel calls from inside the body run in its thread.
   parallel.for_chunks(parallel.threads(), 1, [&](Index, Index, int worker) {
     while (const auto inputs = lanes.take()) try {
@@ -127,6 +128,7 @@ void run_in_lanes(const Extraction& e, const Inputs& own, Index batch, Rows& row
         if (worker != 0) continue;  // the calling thread alone reports
         try {
           const Lanes::State state = lanes.state();
+          reported = state.done;
           rows.report(state.done, state.complete);
         } catch (...) {
           was_stopped = true;
@@ -139,6 +141,7 @@ void run_in_lanes(const Extraction& e, const Inputs& own, Index batch, Rows& row
   const Lanes::State state = lanes.state();
   if (was_stopped) rows.keep(state.complete);
   if (lanes.error()) std::rethrow_exception(lanes.error());
+  if (reported == state.done) return;
   try {
     rows.report(state.done, state.complete);
   } catch (...) {
@@ -179,7 +182,7 @@ Index lane_batch(const Extraction& e, Index inputs) {
   const Index threads = Parallel::shared().threads();
   if (inputs < kBatches * threads * e.unit) return 0;
   Index batch = e.batch;
-  while (threads > 1 && e.memory / e.batch * batch * threads > kMostFloats) {
+  while (threads > 1 && e.memory && e.memory(batch) * threads > kMostFloats) {
     batch = batch / 2 / e.unit * e.unit;
     if (batch < std::min(kLeastBatch, e.batch)) return 0;
   }

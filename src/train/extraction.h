@@ -18,7 +18,8 @@ struct Extraction {
   Index dimension = 0;  ///< of a row
   Index batch = 16;     ///< the most inputs that share a run; a multiple of `unit`
   Index unit = 1;       ///< inputs [k unit, (k + 1) unit) are always in the same batch
-  Index memory = 0;     ///< number of floats that a run of `batch` inputs needs besides its inputs and rows
+  /// How many floats a run of so many inputs needs besides its inputs and rows. None: as good as nothing.
+  std::function<Index(Index inputs)> memory{};
   /// The inputs [begin, end) as a batch. Is called in several threads at the same time.
   std::function<Tensor(Index begin, Index end, Parallel& parallel)> prepared;
   /// The rows of a batch, (inputs, dimension) in order. Is called in several threads at the same time.

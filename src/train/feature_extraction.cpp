@@ -132,7 +132,7 @@ Features extract_features(const models::Backbone& backbone, const ViewDataset& d
                                .count = features.count,
                                .dimension = features.dimension,
                                .batch = kBatch,
-                               .memory = backbone.network().arena_size(kBatch),
+                               .memory = [&](Index views) { return backbone.network().arena_size(views); },
                                .prepared =
                                    [&](Index begin, Index end, Parallel& parallel) {
                                      return prepared_views(backbone.preprocessing(), dataset, begin, end, parallel);

@@ -53,7 +53,7 @@ Features extract_turned_features(const models::Backbone& backbone, const ViewDat
                  .dimension = features.dimension,
                  .batch = 2 * frame::kTurns,
                  .unit = frame::kTurns,
-                 .memory = network.arena_size(2 * frame::kTurns),
+                 .memory = [&](Index rows) { return network.arena_size(rows); },
                  .prepared = [&](Index begin, Index end,
                                  Parallel& parallel) { return prepared_turns(how, dataset, begin, end, parallel); },
                  .run = [&](const Tensor& batch) { return network.run({batch}); },

@@ -1,4 +1,5 @@
 // Products of bytes against plain loops over whole numbers, bit by bit.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstring>
@@ -130,6 +131,33 @@ TEST_CASE("the largest bytes and weights do not saturate, with and without VNNI"
   }
   CHECK_THROWS_WITH(packed_int8_weights(kMostByteDepth + 1, 1, nullptr, nullptr, {}),
                     Catch::Contains("int8 takes sums of at most"));
+}
+
+TEST_CASE("bytes of rows that lie in runs end with their row") {
+  // A window of three rows of an image: three runs, whose last vector would reach into the next row of bytes.
+  for (const Index channels : {5, 14, 27, 35, 71}) {
+    const Index rows = 50, run = 3 * channels, k = 3 * run, across = 3 * channels + rows * channels;
+    const Index stride = packed_row_stride(quads(k));
+    const ByteInput input = byte_input(k, some_ranges(channels));
+    const Numbers image(5, 3 * across + kPanel);
+    for_instruction_sets([&](const std::string& name) {
+      INFO(name << ", " << channels << " channels");
+      const AlignedFloats quad = aligned_floats(rows * stride + 1);
+      std::memset(quad.get(), 0x5a, static_cast<std::size_t>(rows * stride + 1) * sizeof(float));
+      round_to_quads(rows, {image.get(), channels, across, run}, k, input, quad.get(), stride);
+      Index wrong = 0;
+      for (Index row = 0; row < rows; ++row)
+        for (Index i = 0; i < k; ++i) {
+          if (input.factor.get()[i] == 0) continue;
+          const float x = image.get()[i / run * across + row * channels + i % run];
+          const auto* bytes = reinterpret_cast<const std::uint8_t*>(quad.get() + row * stride);
+          wrong += bytes[i] != byte_of(x, input.factor.get()[i], input.zero.get()[i]) ? 1 : 0;
+        }
+      CHECK(wrong == 0);
+      const auto* after = reinterpret_cast<const std::uint8_t*>(quad.get() + rows * stride);
+      CHECK(std::count(after, after + 4, 0x5a) == 4);
+    });
+  }
 }
 
 TEST_CASE("inputs outside their range take its limits, and NaN and infinity do not leave it") {

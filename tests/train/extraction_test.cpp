@@ -78,7 +78,7 @@ TEST_CASE("every input is prepared once and gets its row, whatever the number of
         CAPTURE(count, unit);
         Extraction e = numbers(count);
         e.unit = unit;
-        e.memory = memory;
+        e.memory = [memory](Index) { return memory; };
         std::mutex mutex;
         std::multiset<Index> prepared;
         bool cuts_units = false, exceeds_batch = false;
@@ -135,7 +135,7 @@ TEST_CASE("threads that have the memory each take batches of their own, smaller 
 TEST_CASE("of several inputs that cannot be prepared or run, the first one is named") {
   for_threads([](Index memory) {
     Extraction e = numbers(300);
-    e.memory = memory;
+    e.memory = [memory](Index) { return memory; };
     const auto plain = e.prepared;
     e.prepared = [&](Index begin, Index end, Parallel& parallel) {
       for (const Index damaged : {70, 71, 150, 299})
@@ -160,7 +160,7 @@ TEST_CASE("of several inputs that cannot be prepared or run, the first one is na
 TEST_CASE("progress comes from the calling thread, grows and ends at the number of inputs") {
   for_threads([](Index memory) {
     Extraction e = numbers(100);
-    e.memory = memory;
+    e.memory = [memory](Index) { return memory; };
     const auto caller = std::this_thread::get_id();
     std::vector<Index> done;
     rows_of(e, {.line = {}, .progress = [&](std::string_view task, Index now, Index total, double) {
@@ -172,13 +172,14 @@ TEST_CASE("progress comes from the calling thread, grows and ends at the number 
     REQUIRE(!done.empty());
     CHECK(std::is_sorted(done.begin(), done.end()));
     CHECK(done.back() == 100);
+    CHECK(std::count(done.begin(), done.end(), 100) == 1);
   });
 }
 
 TEST_CASE("if progress throws, rows of the first inputs are kept, and the work goes on from them") {
   for_threads([](Index memory) {
     Extraction e = numbers(400);
-    e.memory = memory;
+    e.memory = [memory](Index) { return memory; };
     struct Stop {};
     std::vector<float> kept;
     e.keep = [&](std::span<const float> rows) { kept.assign(rows.begin(), rows.end()); };

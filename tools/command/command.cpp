@@ -75,13 +75,16 @@ Argument Command::add_callback(const std::string& name, const std::function<void
   return Argument(app_->add_option_function<std::string>(name, checked, help));
 }
 
-Argument Command::add_precision() {
-  return add("--precision", precision_,
-             "Precision of the network's products. bf16 is faster and less exact; it needs a processor with "
-             "AVX512-BF16. int8 is still faster and less exact, runs everywhere, and takes ranges of activations from "
-             "pictures (default: SVNET_PRECISION, or f32)")
-      .one_of({"f32", "bf16", "int8"})
-      .value_name("f32|bf16|int8");
+Argument Command::add_precision(bool has_int8) {
+  const std::string int8 = has_int8 ? " int8 is still faster and less exact, runs everywhere, and takes ranges of "
+                                      "activations from pictures"
+                                    : "";
+  const Argument argument = add("--precision", precision_,
+                                "Precision of the network's products. bf16 is faster and less exact; it needs a "
+                                "processor with AVX512-BF16." +
+                                    int8 + " (default: SVNET_PRECISION, or f32)");
+  if (has_int8) return argument.one_of({"f32", "bf16", "int8"}).value_name("f32|bf16|int8");
+  return argument.one_of({"f32", "bf16"}).value_name("f32|bf16");
 }
 
 Argument Command::add_sandbox() {

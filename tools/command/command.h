@@ -52,8 +52,9 @@ class Command {
   Argument add_callback(const std::string& name, const std::function<void(const std::string&)>& take,
                         const std::string& help);
 
-  /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone.
-  Argument add_precision();
+  /// Adds --precision, which overrides SVNET_PRECISION. For programs that run a backbone. has_int8: the program can
+  /// find ranges of activations.
+  Argument add_precision(bool has_int8 = false);
   /// "f32", "bf16" or "int8", "" if it was not given.
   const std::string& precision() const { return precision_; }
 

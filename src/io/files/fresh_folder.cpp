@@ -72,11 +72,22 @@ fs::path partial_of(const fs::path& target, const fs::path& name) {
   return folder_beside(target, name);
 }
 
-/// Brings everything that was written to the file system of `folder` to the disk. Throws Error, which calls it `name`,
-/// if that fails.
-void sync_file_system(const fs::path& folder, const fs::path& name) {
+/// Brings a file or folder to the disk. Throws Error, which calls it `name`, if that fails.
+void sync_one(const fs::path& path, const fs::path& name) {
+  const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  int result = -1;
+  do result = descriptor.number() < 0 ? -1 : ::fsync(descriptor.number());
+  while (result != 0 && errno == EINTR);
+  if (result != 0) fail_to_write(name, errno);
+}
+
+/// Brings all that `folder` holds to the disk, together with what else was written to its file system. If that fails,
+/// perhaps for a file of another program, each file alone. Throws Error, which calls the folder `name`, if that fails.
+void sync_folder(const fs::path& folder, const fs::path& name) {
   const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor.number() < 0 || ::syncfs(descriptor.number()) != 0) fail_to_write(name, errno);
+  if (descriptor.number() >= 0 && ::syncfs(descriptor.number()) == 0) return;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) sync_one(entry.path(), name);
+  sync_one(folder, name);
 }
 
 }  // namespace
@@ -98,7 +109,7 @@ void FreshFolder::add(const fs::path& relative, std::string_view contents) {
 }
 
 void FreshFolder::keep() {
-  if (has_added_) sync_file_system(partial_, name_);
+  if (has_added_) sync_folder(partial_, name_);
   give_name(partial_, target_, name_);
   make_rename_last(target_);
 }

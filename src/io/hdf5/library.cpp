@@ -22,7 +22,10 @@ herr_t keep_data(void*) { return 0; }
 
 Handle opened(const std::string& name, const char* path, const Handle& access) {
   Handle file(H5Fopen(path, H5F_ACC_RDONLY, access.id()), H5Fclose);
-  if (file.id() < 0) fail(name, ": damaged or incomplete HDF5 file: ", reason());
+  if (file.id() < 0) {
+    const std::string why = reason();
+    fail(name, why.starts_with("out of memory") ? ": cannot be read: " : ": damaged or incomplete HDF5 file: ", why);
+  }
   return file;
 }
 

@@ -151,6 +151,7 @@ class PngEncoder {
         },
         [](png_structp, png_const_charp) {});
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
+    if (info_ == nullptr) png_destroy_write_struct(&png_, nullptr);
     check(info_ != nullptr, "libpng cannot be used: not enough memory, or another version than at compile time");
   }
   ~PngEncoder() { png_destroy_write_struct(&png_, &info_); }

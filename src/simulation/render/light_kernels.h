@@ -73,7 +73,7 @@ struct Shading {
       seen;             // towards where the ray came from; Fresnel's rest; the open share of the mirrored room
   Row<float> shadowed;  // 1 if the lamp or the room is hidden, even in part
 };
-/// lamp_count: of the setting; one of them lights each sample.
+/// One of the lamps lights each sample.
 void shade(std::size_t count, const Surfaces&, const Rows3& direction, const LightRays&, const LampPlace&,
            const Setting&, const Vec3& table_mean, Shading&);
 

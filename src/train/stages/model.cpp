@@ -271,8 +271,8 @@ Model trained_model(const Run& run, FeaturesStage& features) {
   check(std::filesystem::exists(path), run.folder.string(), ": holds no trained model; run svnet-train first");
   Model model = io::read_model(path);
   check(model.input_fingerprint == wanted_fingerprint(run, features), path.string(),
-        ": was trained with another configuration, other images or other weights; run svnet-train with this "
-        "configuration first");
+        ": was trained with another configuration, other images or other weights, or in another precision "
+        "(SVNET_PRECISION); run svnet-train with this configuration first");
   return model;
 }
 

@@ -4,6 +4,7 @@
 #define HWY_TARGET_INCLUDE "nn/kernels/packed/byte_input.cpp"
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
@@ -23,11 +24,16 @@ void bytes_of_rows(Index rows, const PanelRows& a, Index depth, const ByteInput&
     const Index count = HWY_MIN(run, depth - begin);
     for (Index r = 0; r < rows; ++r) {
       const float* from = block + r * a.row_stride;
-      // The last vector may write past the block; the next block, if any, writes there later.
       std::uint8_t* bytes = reinterpret_cast<std::uint8_t*>(to + r * stride) + begin;
-      for (Index i = 0; i < count; i += kLanes)
-        store_bytes(hn::Add(hn::Mul(hn::LoadU(d, from + i), hn::LoadU(d, factor + i)), hn::LoadU(d, zero + i)),
-                    bytes + i);
+      const auto vector = [&](Index at) HWY_ATTR {
+        return hn::Add(hn::Mul(hn::LoadU(d, from + at), hn::LoadU(d, factor + at)), hn::LoadU(d, zero + at));
+      };
+      Index i = 0;
+      for (; i + kLanes <= count; i += kLanes) store_bytes(vector(i), bytes + i);
+      if (i == count) continue;
+      std::uint8_t last[kPanel];  // a whole vector might reach into the next row
+      store_bytes(vector(i), last);
+      std::memcpy(bytes + i, last, static_cast<std::size_t>(count - i));
     }
   }
 }
@@ -43,9 +49,9 @@ HWY_EXPORT(bytes_of_rows);
 
 ByteInput byte_input(Index depth, const ChannelRanges& ranges) {
   const Index padded = panels(depth) * kPanel, channels = static_cast<Index>(ranges.low.size());
-  ByteInput input{aligned_floats(padded), aligned_floats(padded)};
-  std::fill_n(input.factor.get(), padded, 0.0f);
-  std::fill_n(input.zero.get(), padded, 0.0f);
+  ByteInput input{aligned_floats(padded + kPanel), aligned_floats(padded + kPanel)};
+  std::fill_n(input.factor.get(), padded + kPanel, 0.0f);
+  std::fill_n(input.zero.get(), padded + kPanel, 0.0f);
   for (Index i = 0; i < depth; ++i) {
     const auto channel = static_cast<std::size_t>(i % channels);
     const double low = std::min(0.0f, ranges.low[channel]), high = std::max(0.0f, ranges.high[channel]);

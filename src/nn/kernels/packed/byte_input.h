@@ -16,7 +16,7 @@ struct ChannelRanges {
 
 /// How the left operand (rows, depth) of a product becomes bytes: byte = round(x · factor + zero), limited to [0, 255];
 /// halves round to even. NaN becomes 0. `zero` holds whole numbers, which 0 becomes exactly. Arrays are filled up with
-/// zeros to whole panels.
+/// zeros to whole panels and one more, because a vector may begin at any channel.
 struct ByteInput {
   AlignedFloats factor{}, zero{};
 };

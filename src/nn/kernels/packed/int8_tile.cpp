@@ -29,7 +29,7 @@ static_assert(kByteTileRows <= kMostTileRows && kByteTilePanels <= kMostTilePane
 using SumTag = hn::CappedTag<std::int32_t, kPanel>;
 using SumVector = hn::Vec<SumTag>;
 
-#if HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4  // better ones have smaller numbers; SSE2 lacks vpmaddubsw
 /// sum + the products of the four bytes of each lane. No sum of two products saturates.
 #if HWY_TARGET <= HWY_AVX3
 HWY_INLINE SumVector add_products(SumVector sum, SumVector bytes, SumVector weights) {

@@ -61,7 +61,10 @@ PackedWeights packed_int8_weights(Index depth, Index n, const float* w, const fl
   const auto weight = [&](Index i, Index column) { return factor[i] > 0 ? w[i * n + column] / double{factor[i]} : 0; };
   for (Index column = 0; column < n; ++column) {
     double largest = 0;
-    for (Index i = 0; i < depth; ++i) largest = std::max(largest, std::abs(weight(i, column)));
+    for (Index i = 0; i < depth; ++i) {
+      check(std::isfinite(w[i * n + column]), "[precision] int8: a weight is not finite");
+      largest = std::max(largest, std::abs(weight(i, column)));
+    }
     const float scale = static_cast<float>(largest / kLargestByteWeight);
     std::int64_t start = 0;
     double drift = 0;
