@@ -88,7 +88,7 @@ class PictureReader {
                           .count = static_cast<Index>(files.size()),
                           .dimension = backbone_.dimension(),
                           .batch = kBatch,
-                          .memory = backbone_.network().arena_size(kBatch),
+                          .memory = [&](Index pictures) { return backbone_.network().arena_size(pictures); },
                           .prepared = prepared,
                           .run = [&](const Tensor& batch) { return backbone_.features(batch); },
                           .name = [&](Index file) { return files[static_cast<std::size_t>(file)].string(); }},
