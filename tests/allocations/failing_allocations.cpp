@@ -49,13 +49,14 @@ bool says_memory(std::string_view text) {
 /// The library among whose functions an allocation failed, if it is one that is known not to survive that; else empty.
 /// nlohmann::json allocates in its destructor and std::filesystem::directory_iterator in functions that are noexcept:
 /// both end the process. A json that cannot be built leaks its parts. libwebp calls some failures damage of the file,
-/// and libtiff leaks.
+/// and libtiff leaks. fork of glibc may allocate in the child before it returns, and ends it.
 std::string frail_library(std::span<void* const> stack) {
   for (void* address : stack) {
     Dl_info place{};
     if (::dladdr(address, &place) == 0) continue;
     const std::string_view function = place.dli_sname != nullptr ? place.dli_sname : "", file = place.dli_fname;
     if (function.find("nlohmann") != function.npos) return "nlohmann::json";
+    if (function.find("libc_fork") != function.npos) return "fork of glibc";
     if (function.find("directory_iterator") != function.npos) return "std::filesystem::directory_iterator";
     for (const char* library : {"libhdf5", "libwebp", "libtiff"})
       if (file.find(library) != file.npos) return library;
