@@ -26,7 +26,10 @@ void philox_columns(std::array<std::uint32_t, 4> counter, std::array<std::uint32
   for (std::size_t i = 0; i < count; ++i) {
     counter[0] = first[i];
     const auto of_counter = philox4x32(counter, key);
-    for (std::size_t word = 0; word < 4; ++word) words[word][i] = of_counter[word];
+    for (std::size_t word = 0; word < 4; ++word) {
+      std::uint32_t* const row = words[word];
+      row[i] = of_counter[word];
+    }
   }
 }
 

@@ -52,7 +52,7 @@ struct Work {
   Row<std::uint32_t> x, y, place, words[4];
   Row<float> numbers[4], meets, room_m;
   Surfaces surfaces;
-  ObjectSurfaces object;
+  ObjectSurfaces object{};
   Angles angles;
   LightRays light_rays;
   Shading shading;
