@@ -61,6 +61,15 @@ Results results(const Workplace& place, const std::string& instruction_set) {
           predicted(place.output_of(set + "svnet-predict model.safetensors --image top.png --json"))};
 }
 
+/// What svnet-features makes of the pictures with an environment ("NAME=value ") and options (" --name value").
+Features features_of(const Workplace& place, const std::string& environment, const std::string& options) {
+  place.output_of(environment +
+                  "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
+                  "--output its.h5" +
+                  options);
+  return read_features(place / "its.h5");
+}
+
 }  // namespace
 
 TEST_CASE("features in bf16 are near those in f32, are marked as bf16 and have another fingerprint") {
@@ -70,11 +79,7 @@ TEST_CASE("features in bf16 are near those in f32, are marked as bf16 and have a
   }
   const Workplace place;
   const auto features = [&](const std::string& environment, const std::string& option) {
-    place.output_of(environment +
-                    "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
-                    "--output its.h5" +
-                    option);
-    return read_features(place / "its.h5");
+    return features_of(place, environment, option);
   };
   const Features plain = features("", ""), coarse = features("SVNET_PRECISION=f32 ", " --precision bf16");
   CHECK(difference(plain.values, coarse.values) <= 2e-2);
@@ -90,11 +95,7 @@ TEST_CASE(
     "VNNI") {
   const Workplace place;
   const auto features = [&](const std::string& environment, const std::string& option) {
-    place.output_of(environment +
-                    "svnet-features --quiet --backbone tiny_xception --weights weights/tiny_xception.h5 --images data "
-                    "--output its.h5" +
-                    option);
-    return read_features(place / "its.h5");
+    return features_of(place, environment, option);
   };
   const Features plain = features("", ""), coarse = features("", " --precision int8");
   CHECK(difference(plain.values, coarse.values) <= 0.1);

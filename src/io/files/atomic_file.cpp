@@ -20,14 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// fsync, repeated if a signal interrupts it.
-int synced(int descriptor) {
-  int result;
-  do result = ::fsync(descriptor);
-  while (result != 0 && errno == EINTR);
-  return result;
-}
-
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
 /// The end of a chain of symbolic links.

@@ -27,4 +27,11 @@ void write_all(const std::filesystem::path& path, const Descriptor& file, std::s
   }
 }
 
+int synced(int descriptor) {
+  int result;
+  do result = ::fsync(descriptor);
+  while (result != 0 && errno == EINTR);
+  return result;
+}
+
 }  // namespace svnet::io

@@ -23,4 +23,7 @@ class Descriptor {
 /// Writes all of `contents`. Throws Error that names `path` if `file` is not open (errno says why) or a write fails.
 void write_all(const std::filesystem::path& path, const Descriptor& file, std::string_view contents);
 
+/// fsync, repeated if a signal interrupts it.
+int synced(int descriptor);
+
 }  // namespace svnet::io

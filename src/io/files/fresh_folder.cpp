@@ -75,10 +75,7 @@ fs::path partial_of(const fs::path& target, const fs::path& name) {
 /// Brings a file or folder to the disk. Throws Error, which calls it `name`, if that fails.
 void sync_one(const fs::path& path, const fs::path& name) {
   const Descriptor descriptor(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  int result = -1;
-  do result = descriptor.number() < 0 ? -1 : ::fsync(descriptor.number());
-  while (result != 0 && errno == EINTR);
-  if (result != 0) fail_to_write(name, errno);
+  if (descriptor.number() < 0 || synced(descriptor.number()) != 0) fail_to_write(name, errno);
 }
 
 /// Brings all that `folder` holds to the disk, together with what else was written to its file system. If that fails,
