@@ -105,7 +105,10 @@ Image decode_tiff(const std::string& name, Bytes bytes) {
           [](thandle_t handle) { return static_cast<toff_t>(static_cast<TiffFile*>(handle)->bytes.size()); },
           [](thandle_t, void**, toff_t*) { return 0; }, [](thandle_t, void*, toff_t) {}, options.get()),
       TIFFClose);
+  // libtiff says of sizes that a damaged file asks for, as of memory that is missing, that it cannot allocate them.
   const auto fail_tiff = [&] {
+    check(file.complaint.find("memory") == std::string::npos && file.complaint.find("allocat") == std::string::npos, name,
+          ": cannot be decoded as TIFF (", file.complaint, "); the file is damaged, or memory is missing");
     fail_damaged(name, "TIFF", file.complaint.empty() ? "it cannot be decoded" : file.complaint);
   };
   std::uint32_t width = 0, height = 0;
