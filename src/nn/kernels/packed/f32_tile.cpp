@@ -20,11 +20,11 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 inline constexpr int kTileRows = 1, kTilePanels = 1;
 #elif HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-inline constexpr int kTileRows = 14, kTilePanels = 2;
+inline constexpr int kTileRows = HWY_MIN(14, kMostTileRows), kTilePanels = 2;
 #elif HWY_ARCH_X86 && HWY_MAX_BYTES == 16
 inline constexpr int kTileRows = 3, kTilePanels = 1;
 #else
-inline constexpr int kTileRows = 6, kTilePanels = 1;
+inline constexpr int kTileRows = HWY_MIN(6, kMostTileRows), kTilePanels = 1;
 #endif
 static_assert(kTileRows <= kMostTileRows && kTilePanels <= kMostTilePanels);
 

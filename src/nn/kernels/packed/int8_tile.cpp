@@ -18,11 +18,11 @@ namespace HWY_NAMESPACE {
 #if HWY_TARGET == HWY_SCALAR
 inline constexpr int kByteTileRows = 1, kByteTilePanels = 1;
 #elif HWY_TARGET <= HWY_AVX3 && HWY_ARCH_X86
-inline constexpr int kByteTileRows = 13, kByteTilePanels = 2;
+inline constexpr int kByteTileRows = HWY_MIN(13, kMostTileRows), kByteTilePanels = 2;
 #elif HWY_ARCH_X86 && HWY_MAX_BYTES == 16
 inline constexpr int kByteTileRows = 3, kByteTilePanels = 1;
 #else
-inline constexpr int kByteTileRows = 6, kByteTilePanels = 1;
+inline constexpr int kByteTileRows = HWY_MIN(6, kMostTileRows), kByteTilePanels = 1;
 #endif
 static_assert(kByteTileRows <= kMostTileRows && kByteTilePanels <= kMostTilePanels);
 

@@ -11,8 +11,13 @@ inline constexpr Index kPanel = 16;
 
 inline constexpr Index panels(Index n) { return (n + kPanel - 1) / kPanel; }
 
-/// Upper bounds of the rows and panels of a register tile. The instruction set decides how many it has.
+/// Upper bounds of the rows and panels of a register tile. The instruction set decides how many it has. Under sanitizers,
+/// whose compilers need minutes for fourteen rows that are unrolled, tiles are lower.
+#ifdef SVNET_SANITIZED
+inline constexpr int kMostTileRows = 3, kMostTilePanels = 2;
+#else
 inline constexpr int kMostTileRows = 14, kMostTilePanels = 2;
+#endif
 
 /// The left operand (rows, depth) of a product with a panel. Element (row, i) is
 /// data[i / run · block_stride + row · row_stride + i % run]. In plain rows block_stride equals run.
