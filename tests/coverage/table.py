@@ -1,26 +1,42 @@
-"""table.py GCOVR_JSON [FOLDER]: lines and branches of each folder of src/ that ran; of each file below FOLDER."""
+"""table.py JSON_OF_LLVM_COV [FOLDER]: lines and branches of each folder of src/ that ran; of each file below FOLDER,
+with the lines of branches that did not."""
 import collections
 import json
 import pathlib
 import sys
 
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+
+def runs_of_lines(segments):
+    """{line: how often it ran} of a file's segments (line, column, count, has a count, starts a region, is a gap)."""
+    runs = {}
+    wrapped, last = None, 1
+    by_line = collections.defaultdict(list)
+    for segment in segments:
+        by_line[segment[0]].append(segment)
+    for line in range(min(by_line, default=1), max(by_line, default=0) + 1):
+        starts = [s for s in by_line[line] if s[3] and s[4] and not s[5]]
+        counts = [s[2] for s in starts]
+        if wrapped is not None and wrapped[3]:
+            counts.append(wrapped[2])
+        if counts and not (by_line[line] and not by_line[line][0][3] and by_line[line][0][4]):
+            runs[line] = max(counts)
+        if by_line[line]:
+            wrapped = by_line[line][-1]
+    return runs
+
 
 def counts(file):
-    """Lines run, lines, branches taken, branches. What gcov lists once for each instance of a template counts once: a
-    line or branch is run if it is in one of them."""
-    runs = collections.defaultdict(int)
-    branches = collections.defaultdict(dict)
-    for line in file["lines"]:
-        if line.get("gcovr/noncode") or line.get("gcovr/excluded"):
-            continue
-        number = line["line_number"]
-        runs[number] = max(runs[number], line["count"])
-        for place, branch in enumerate(line["branches"]):
-            if not branch.get("gcovr/excluded"):
-                taken = branches[number]
-                taken[place] = max(taken.get(place, 0), branch["count"])
-    taken = [count for places in branches.values() for count in places.values()]
-    return [sum(count > 0 for count in runs.values()), len(runs), sum(count > 0 for count in taken), len(taken)]
+    """Lines run, lines, branches taken, branches, lines with branches not taken."""
+    runs = runs_of_lines(file["segments"])
+    outcomes = collections.defaultdict(int)
+    for line, column, _, end, true, false, *_ in file["branches"]:
+        outcomes[line, column, end, True] += true
+        outcomes[line, column, end, False] += false
+    missed = sorted({place[0] for place, count in outcomes.items() if count == 0})
+    return [sum(count > 0 for count in runs.values()), len(runs),
+            sum(count > 0 for count in outcomes.values()), len(outcomes)], missed
 
 
 def share(part, whole):
@@ -29,17 +45,20 @@ def share(part, whole):
 
 def main(path, below=None):
     sums = collections.defaultdict(lambda: [0, 0, 0, 0])
-    for file in json.load(open(path))["files"]:
-        name = pathlib.Path(file["file"])
-        if below and not file["file"].startswith(below):
+    lines = {}
+    for file in json.load(open(path))["data"][0]["files"]:
+        name = pathlib.Path(file["filename"]).relative_to(ROOT)
+        if name.parts[0] != "src" or (below and not str(name).startswith(below)):
             continue
-        folders = [str(name)] if below else [str(name.parent), "/".join(name.parts[:2]) + "/*", "all"]
-        for folder in folders:
-            for i, value in enumerate(counts(file)):
+        values, missed = counts(file)
+        lines[str(name)] = missed
+        for folder in [str(name)] if below else [str(name.parent), "/".join(name.parts[:2]) + "/*", "all"]:
+            for i, value in enumerate(values):
                 sums[folder][i] += value
     print(f"{'folder':40} {'lines':>14} {'branches':>16}")
-    for folder, (lines, all_lines, taken, branches) in sorted(sums.items()):
-        print(f"{folder:40} {share(lines, all_lines)} {all_lines:6d} {share(taken, branches)} {branches:8d}")
+    for folder, (run, all_lines, taken, branches) in sorted(sums.items()):
+        print(f"{folder:40} {share(run, all_lines)} {all_lines:6d} {share(taken, branches)} {branches:8d}",
+              *lines.get(folder, []) if below else [])
 
 
 if __name__ == "__main__":
