@@ -5,7 +5,6 @@
 
 #include <fcntl.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include "base/error.h"
 
@@ -25,10 +24,8 @@ bool lock(int descriptor) {
 FileLock::FileLock(const std::filesystem::path& path)
     : descriptor_(::open(path.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0666)), held_(false) {
   const int error = errno;
-  check(descriptor_ >= 0, path.string(), ": cannot be opened: ", std::generic_category().message(error));
-  held_ = lock(descriptor_);
+  check(descriptor_.number() >= 0, path.string(), ": cannot be opened: ", std::generic_category().message(error));
+  held_ = lock(descriptor_.number());
 }
-
-FileLock::~FileLock() { ::close(descriptor_); }
 
 }  // namespace svnet::io

@@ -1,6 +1,8 @@
 #pragma once
 #include <filesystem>
 
+#include "io/files/descriptor.h"
+
 namespace svnet::io {
 
 /// A file that one process at a time may hold (flock). The kernel releases it when its holder ends, even if it is
@@ -9,15 +11,12 @@ class FileLock {
  public:
   /// Throws Error if the file cannot be opened. On file systems without locks nobody is kept away.
   explicit FileLock(const std::filesystem::path& path);
-  ~FileLock();
-  FileLock(const FileLock&) = delete;
-  FileLock& operator=(const FileLock&) = delete;
 
   /// False if another process holds the file.
   bool held() const { return held_; }
 
  private:
-  int descriptor_;
+  Descriptor descriptor_;
   bool held_;
 };
 
