@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "image/oriented.h"
+#include "io/files/atomic_file.h"
 #include "io/files/whole_file.h"
 #include "io/images/depth_file.h"
 #include "io/images/image_codecs.h"
@@ -262,6 +263,17 @@ void add_writers(std::vector<Load>& loads, const fs::path& seeds, const fs::path
       written("write scores", work / "scores", [=](const fs::path& path) { io::write_scores(path, scores); }));
   const Image image = io::read_image(seeds / "picture/written.png");
   loads.push_back(written("write a PNG", work / "png", [=](const fs::path& path) { io::write_png(path, image); }));
+  loads.push_back(written("write a photograph as PNG", work / "photograph", [=](const fs::path& path) {
+    io::write_atomically(path, io::encoded_png(path.string(), image, io::PngContent::photograph));
+  }));
+  DepthImage depth{64, 48, std::vector<float>(64 * 48)};
+  for (std::size_t i = 0; i < depth.metres.size(); ++i) depth.metres[i] = 0.5f + 0.001f * static_cast<float>(i % 97);
+  loads.push_back(written("write depth as PNG", work / "depth_png",
+                          [=](const fs::path& path) { io::write_depth_png(path, depth); }));
+  const std::vector<std::uint8_t> mask(64 * 48, 255);
+  loads.push_back(written("write a mask as PNG", work / "mask", [=](const fs::path& path) {
+    io::write_atomically(path, io::encoded_grey_png(path.string(), 64, 48, mask));
+  }));
 }
 
 }  // namespace
