@@ -1,17 +1,11 @@
 #pragma once
 #include <map>
 #include <string>
-#include <vector>
 
 #include "io/onnx/onnx_graph.h"
+#include "io/onnx/onnx_tensor.h"
 
 namespace svnet::io {
-
-/// A tensor of float32, row-major.
-struct OnnxTensor {
-  std::vector<Index> shape{};
-  std::vector<float> values{};
-};
 
 /// The first output of a graph, computed from the definitions of ONNX' operations (onnx.ai/onnx/operators), of those
 /// that svnet writes. It shares nothing with nn/runtime but the product of matrices, so that an export can be compared
