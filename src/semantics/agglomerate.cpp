@@ -11,19 +11,17 @@
 // so a column waits in its row until the next merge has loaded its two rows. Meanwhile it is `pending`.
 #include "semantics/agglomerate.h"
 
-#include <algorithm>
 #include <array>
-#include <bit>
-#include <cstring>
-#include <limits>
+#include <cstdint>
 #include <utility>
-
-#include "semantics/lower_triangle.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "semantics/agglomerate.cpp"
 #include <hwy/foreach_target.h>
 #include <hwy/highway.h>
+
+#include "semantics/agglomerate_rows-inl.h"
+#include "semantics/agglomerate_start-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace svnet::semantics {
@@ -43,193 +41,15 @@ constexpr bool uses_sizes(Linkage linkage) {
   return true;
 }
 
-/// Whether the dissimilarities are distances; otherwise they are squared distances.
-constexpr bool uses_roots(Linkage linkage) {
-  switch (linkage) {
-    case Linkage::average:
-      return true;
-    case Linkage::ward:
-    case Linkage::complete:
-    case Linkage::single:
-      return false;
-  }
-  return false;
-}
-
-// At most 16 lanes, so that padded rows hold whole vectors.
-using Floats = hn::CappedTag<float, 16>;
-using Ints = hn::RebindToSigned<Floats>;
-using FloatVector = hn::Vec<Floats>;
-using IntVector = hn::Vec<Ints>;
-
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-constexpr float kLargest = std::numeric_limits<float>::max();
-constexpr std::int32_t kUnknown = -1;
-
-/// first, first + 1, … Iota(first) would be slower: the compiler builds it in memory, lane by lane.
-HWY_INLINE IntVector positions_from(Index first) {
-  return hn::Add(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(first)));
-}
-
-/// Returns a mask as an integer; bit i is lane i.
-HWY_INLINE std::uint64_t bits_of(hn::Mask<Floats> mask) {
-  std::uint8_t bytes[8];
-  hn::StoreMaskBits(Floats(), mask, bytes);
-  if constexpr (hn::MaxLanes(Floats()) > 8) {
-    std::uint16_t both;  // little-endian, as every machine with such vectors
-    std::memcpy(&both, bytes, sizeof both);
-    return both;
-  }
-  return bytes[0];
-}
-
-/// The number of vectors that hold all slots: kVectors if it is known at compile time, that is, not 0.
-template <int kVectors>
-HWY_INLINE Index vectors(const AgglomerationState& s) {
-  const Index lanes = hn::Lanes(Floats());
-  return kVectors > 0 ? kVectors : (s.n + lanes - 1) / lanes;
-}
-
-/// Copies the part below the diagonal to the part above it, in blocks of 4 x 4 if there are vectors of 4 lanes.
-HWY_INLINE void mirror(const AgglomerationState& s) {
-#if HWY_TARGET == HWY_SCALAR
-  for (Index j = 0; j < s.n; ++j)
-    for (Index i = 0; i < j; ++i) s.dissimilarity[i * s.stride + j] = s.dissimilarity[j * s.stride + i];
-#else
-  const hn::FixedTag<float, 4> d;
-  const hn::RepartitionToWide<decltype(d)> pairs;
-  for (Index j = 0; j < s.n; j += 4) {
-    const float* row = s.dissimilarity + j * s.stride;  // there is memory for three rows after the last one
-    for (Index i = 0; i < j; i += 4) {
-      const auto r0 = hn::Load(d, row + i), r1 = hn::Load(d, row + s.stride + i);
-      const auto r2 = hn::Load(d, row + 2 * s.stride + i), r3 = hn::Load(d, row + 3 * s.stride + i);
-      const auto low01 = hn::BitCast(pairs, hn::InterleaveLower(d, r0, r1));
-      const auto low23 = hn::BitCast(pairs, hn::InterleaveLower(d, r2, r3));
-      const auto high01 = hn::BitCast(pairs, hn::InterleaveUpper(d, r0, r1));
-      const auto high23 = hn::BitCast(pairs, hn::InterleaveUpper(d, r2, r3));
-      float* to = s.dissimilarity + i * s.stride + j;
-      hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, low01, low23)), d, to);
-      hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, low01, low23)), d, to + s.stride);
-      hn::Store(hn::BitCast(d, hn::InterleaveLower(pairs, high01, high23)), d, to + 2 * s.stride);
-      hn::Store(hn::BitCast(d, hn::InterleaveUpper(pairs, high01, high23)), d, to + 3 * s.stride);
-    }
-    for (Index r = 1; r < std::min<Index>(4, s.n - j); ++r)
-      for (Index c = 0; c < r; ++c) s.dissimilarity[(j + c) * s.stride + j + r] = row[r * s.stride + j + c];
-  }
-#endif
-}
-
-/// Copies the input distances below the diagonal, mirrors them, and finds the nearest later slot of each slot.
-HWY_NOINLINE void start(Linkage linkage, const AgglomerationState& s) {
-  const Floats d;
-  const Ints di;
-  const Index lanes = hn::Lanes(d);
-  const auto infinity = hn::Set(d, kInfinity);
-  for (Index j = 0; j < s.n; ++j) s.merged_into[j] = j;
-  for (Index i = 0; i < s.stride; i += lanes) {
-    const auto column = positions_from(i);
-    auto value = hn::Set(d, kInfinity);
-    auto next = hn::Set(d, kLargest);
-    auto position = hn::Set(di, kUnknown);
-    if (i < s.n) hn::Store(hn::Zero(d), d, s.dissimilarity + i * s.stride + i);
-    for (Index j = i + 1; j < s.n; ++j) {
-      float* row = s.dissimilarity + j * s.stride;
-      const float* given = s.triangle == nullptr ? row : s.triangle + LowerTriangle::row_offset(j);
-      const auto slot = hn::Set(di, static_cast<std::int32_t>(j));
-      const auto inside = hn::RebindMask(d, hn::Lt(column, slot));
-      auto here = hn::IfThenElseZero(inside, hn::Load(d, given + i));
-      if (uses_roots(linkage)) here = hn::Sqrt(here);
-      hn::Store(here, d, row + i);
-      const auto candidate = hn::IfThenElse(inside, here, infinity), nearer_than = value;
-      next = hn::Min(next, hn::Max(value, candidate));
-      value = hn::Min(value, candidate);
-      const auto nearer = hn::Lt(value, nearer_than);
-      position = hn::IfThenElse(hn::RebindMask(di, nearer), slot, position);
-    }
-    hn::Store(value, d, s.nearest_value + i);
-    hn::Store(next, d, s.next_value + i);
-    hn::Store(position, di, s.nearest + i);
-    hn::Store(hn::Set(d, 1.0f), d, s.size + i);
-    const auto outside = hn::Gt(column, hn::Set(di, static_cast<std::int32_t>(s.n - 1)));
-    hn::Store(hn::IfThenElseZero(hn::RebindMask(d, outside), hn::Set(d, kInfinity)), d, s.gone + i);
-  }
-  mirror(s);
-}
-
-/// values[slot] = value. Stores a whole vector, because a later vector load would stall on a narrower store, and on a
-/// masked one: so the two parts are joined by Or, which the compiler cannot make a masked store of.
-HWY_INLINE void set(float* values, Index slot, FloatVector value) {
-  const Floats d;
-  const Index first = slot & -static_cast<Index>(hn::Lanes(d));
-  const auto lane =
-      hn::RebindMask(d, hn::Eq(hn::Iota(Ints(), 0), hn::Set(Ints(), static_cast<std::int32_t>(slot - first))));
-  const auto others = hn::IfThenZeroElse(lane, hn::Load(d, values + first));
-  hn::Store(hn::Or(hn::IfThenElseZero(lane, value), others), d, values + first);
-}
-HWY_INLINE void set(std::int32_t* values, Index slot, IntVector value) {
-  const Ints d;
-  const Index first = slot & -static_cast<Index>(hn::Lanes(d));
-  const auto lane = hn::Eq(hn::Iota(d, 0), hn::Set(d, static_cast<std::int32_t>(slot - first)));
-  const auto others = hn::IfThenZeroElse(lane, hn::Load(d, values + first));
-  hn::Store(hn::Or(hn::IfThenElseZero(lane, value), others), d, values + first);
-}
-
-/// A slot with the smallest bound, and its nearest later slot; kUnknown: it must be searched.
-struct Candidate {
-  Index slot, nearest;
-};
-
-/// The smallest value of all slots, and the first slot that has it.
-struct Smallest {
-  FloatVector value;  // in every lane
-  Index slot;
-};
-
-/// A value per slot, in registers if the number of vectors is known.
-template <int kVectors>
-struct Row {
-  FloatVector at[kVectors];
-
-  explicit Row(float*) {}
-  HWY_INLINE FloatVector get(Index v) const { return at[v]; }
-  HWY_INLINE void set(Index v, FloatVector value) { at[v] = value; }
-};
-template <>
-struct Row<0> {
-  float* memory;
-
-  explicit Row(float* scratch) : memory(scratch) {}
-  HWY_INLINE FloatVector get(Index v) const {
-    return hn::Load(Floats(), memory + v * static_cast<Index>(hn::Lanes(Floats())));
-  }
-  HWY_INLINE void set(Index v, FloatVector value) {
-    hn::Store(value, Floats(), memory + v * static_cast<Index>(hn::Lanes(Floats())));
-  }
-};
-
 /// Whether a column waits until the next merge. That gains only if the rows of a merge fit in registers, of which there
 /// are 32 with AVX-512.
 template <int kVectors>
 constexpr bool kDefers = kVectors > 0 && hn::MaxLanes(Floats()) == 16;
 
-/// Returns the first slot whose value is `wanted`; one must have it. is_only, if not null: whether no other slot has
-/// it.
-template <int kVectors>
-HWY_INLINE Index first_equal(const AgglomerationState& s, const Row<kVectors>& values, FloatVector wanted,
-                             bool* is_only) {
-  const Index lanes = hn::Lanes(Floats()), count = vectors<kVectors>(s), of_word = 64 / lanes;
-  Index found = 0;
-  std::uint64_t bits_found = 0;
-  for (Index v0 = (count - 1) / of_word * of_word; v0 >= 0; v0 -= of_word) {
-    std::uint64_t bits = 0;
-    for (Index v = v0; v < std::min(count, v0 + of_word); ++v)
-      bits |= bits_of(hn::Eq(values.get(v), wanted)) << ((v - v0) * lanes);
-    found = bits != 0 ? v0 * lanes + std::countr_zero(bits) : found;
-    bits_found = bits_found != 0 && bits != 0 ? ~std::uint64_t{0} : bits_found | bits;
-  }
-  if (is_only != nullptr) *is_only = (bits_found & (bits_found - 1)) == 0;
-  return found;
-}
+/// A slot with the smallest bound, and its nearest later slot; kUnknown: it must be searched.
+struct Candidate {
+  Index slot, nearest;
+};
 
 /// Sets the bounds of slot a, of which `later` has the dissimilarities to later slots, infinity elsewhere. `bounds` are
 /// those of the other slots. Returns the candidate with the smallest bound of all slots.
@@ -237,7 +57,7 @@ template <int kVectors>
 HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, const Row<kVectors>& later,
                               const Row<kVectors>& bounds) {
   const Floats d;
-  const Index count = vectors<kVectors>(s);
+  const Index count = vectors<kVectors>(s.n);
   auto nearest = later.get(0), other = bounds.get(0);
   for (Index v = 1; v < count; ++v) {
     nearest = hn::Min(nearest, later.get(v));
@@ -252,8 +72,8 @@ HWY_INLINE Candidate conclude(const AgglomerationState& s, Index a, const Row<kV
   }
   next = hn::MinOfLanes(d, next);
   bool is_only = false;
-  const Index of_nearest = first_equal<kVectors>(s, later, nearest, &is_only);
-  const Index slot = first_equal<kVectors>(s, bounds, other, nullptr);
+  const Index of_nearest = first_equal<kVectors>(s.n, later, nearest, &is_only);
+  const Index slot = first_equal<kVectors>(s.n, bounds, other, nullptr);
   set(s.nearest_value, a, nearest);
   set(s.next_value, a, HWY_LIKELY(is_only) ? next : hn::Min(nearest, hn::Set(d, kLargest)));
   set(s.nearest, a, hn::Set(Ints(), static_cast<std::int32_t>(of_nearest)));
@@ -272,7 +92,7 @@ HWY_INLINE Candidate search(const AgglomerationState& s, Index a, Index pending)
   set(s.nearest_value, a, hn::Set(d, kInfinity));
   if (kDefers<kVectors>) set(row, pending, hn::Set(d, s.dissimilarity[pending * s.stride + a]));
   Row<kVectors> later(s.scratch), bounds(s.nearest_value);
-  for (Index v = 0; v < vectors<kVectors>(s); ++v) {
+  for (Index v = 0; v < vectors<kVectors>(s.n); ++v) {
     const Index i = v * lanes;
     const auto value = hn::Add(hn::Load(d, row + i), hn::Load(d, s.gone + i));
     later.set(v, hn::Add(value, hn::LoadU(d, only_later + i)));
@@ -299,7 +119,7 @@ template <bool kIsWard, int kVectors>
 HWY_INLINE Candidate merge(Linkage linkage, const AgglomerationState& s, Index a, Index b, Index pending) {
   const Floats d;
   const Ints di;
-  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s);
+  const Index lanes = hn::Lanes(d), count = vectors<kVectors>(s.n);
   float* row_a = s.dissimilarity + a * s.stride;
   float* row_b = s.dissimilarity + b * s.stride;
   const float* row_pending = s.dissimilarity + pending * s.stride;
@@ -409,7 +229,7 @@ template <bool kIsWard>
 void agglomerate_by_vectors(Linkage linkage, Index k, const AgglomerationState& s) {
   constexpr int kMostUnrolled = hn::MaxLanes(Floats()) >= 8 ? 8 : 0;
   constexpr auto kByVectors = agglomerations<kIsWard>(std::make_integer_sequence<int, kMostUnrolled + 1>());
-  const Index count = vectors<0>(s);
+  const Index count = vectors<0>(s.n);
   kByVectors[static_cast<std::size_t>(count <= kMostUnrolled ? count : 0)](linkage, k, s);
 }
 
