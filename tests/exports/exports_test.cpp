@@ -144,6 +144,29 @@ TEST_CASE("a model file with smaller weights agrees with the model") {
   CHECK(axis.largest_difference == 0);
 }
 
+TEST_CASE(
+    "a model that multiplies in int8 is exported, in other precisions too unless the weights then differ too much") {
+  const TemporaryFolder folder;
+  Model model = small_model();
+  model.backbone_ranges =
+      models::in_int8_for_noise(models::random_backbone("tiny_xception", "", 2), 7).network().options().ranges;
+  // In ONNX and Keras it multiplies in float32.
+  CHECK(export_onnx(model, folder.path() / "m.onnx", {}).largest_difference <= bound_of(StoredPrecision::f32));
+  const auto path = folder.path() / "m.safetensors";
+  CHECK(export_safetensors(model, path, StoredPrecision::f32).largest_difference == 0);
+  CHECK(*io::read_model(path).backbone_ranges == *model.backbone_ranges);
+  for (const StoredPrecision precision : {StoredPrecision::bf16, StoredPrecision::int8}) {
+    std::filesystem::remove(path);
+    try {
+      CHECK(export_safetensors(model, path, precision).largest_difference <= bound_of(precision));
+      CHECK(io::read_model(path).backbone_ranges != nullptr);
+    } catch (const Error& refused) {  // rounded twice
+      CHECK_THAT(refused.what(), Contains("does not compute what the model computes"));
+      CHECK_FALSE(std::filesystem::exists(path));
+    }
+  }
+}
+
 TEST_CASE("bytes that are not an ONNX model are refused") {
   CHECK_THROWS_WITH(io::parse_onnx("a.onnx", "no model"), Contains("a.onnx: is not an ONNX model"));
   CHECK_THROWS_WITH(io::parse_onnx("a.onnx", ""), Contains("it has no graph"));
