@@ -71,19 +71,21 @@ endfunction()
 
 # In unity builds, the standard headers that most files include are compiled once for each set of options. Files include
 # what they need all the same: other builds have no precompiled headers.
+# svnet_precompiled_headers(NAME [OPTIONS ...] [HEADERS ...]): these, and further headers.
 function(svnet_precompiled_headers name)
+  cmake_parse_arguments(ARG "" "" "OPTIONS;HEADERS" ${ARGN})
   set(empty ${CMAKE_CURRENT_BINARY_DIR}/${name}.cpp)
   file(CONFIGURE OUTPUT ${empty} CONTENT "")
   add_library(${name} OBJECT ${empty})
   target_link_libraries(${name} PRIVATE svnet_options)
-  target_compile_options(${name} PRIVATE ${ARGN})
+  target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
   set_target_properties(${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   target_precompile_headers(${name} PRIVATE <algorithm> <array> <cmath> <cstdint> <cstring> <filesystem> <functional>
-    <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <utility> <vector>)
+    <limits> <map> <memory> <numeric> <optional> <span> <sstream> <string> <string_view> <utility> <vector> ${ARG_HEADERS})
 endfunction()
 if(SVNET_UNITY)
   svnet_precompiled_headers(svnet_precompiled)
   if(NOT SVNET_SANITIZE)
-    svnet_precompiled_headers(svnet_precompiled_computes -O3)
+    svnet_precompiled_headers(svnet_precompiled_computes OPTIONS -O3)
   endif()
 endif()

@@ -114,7 +114,7 @@ void add_other_places(Corpus& corpus) {
   });
   for (const auto& [name, source] :
        {std::pair("virtual_dataset_of_another_file", "/etc/passwd"), std::pair("virtual_dataset_of_itself", ".")})
-    corpus.add(name, [&](const RawHdf5& file) {
+    corpus.add(name, [source = source](const RawHdf5& file) {
       file.layer();
       const hsize_t size = 64;
       const hid_t space = H5Screate_simple(1, &size, nullptr), creation = H5Pcreate(H5P_DATASET_CREATE);
