@@ -51,7 +51,8 @@ TEST_CASE("fields with wrong values are refused by name") {
                                           {"frame", "opticle"},
                                           {"exif_orientation", "1"}}) {
     CAPTURE(name, value);
-    CHECK_THAT(refusal_of([&] { read({{name, value}}); }), Catch::StartsWith("400 " + name + ": "));
+    const Fields field{{name, value}};
+    CHECK_THAT(refusal_of([&] { read(field); }), Catch::StartsWith("400 " + name + ": "));
   }
   for (const char* count : {"0", "-1", "1.5", "501", "1e300"})
     CHECK_THAT(refusal_of([&] { read({{"grid", "even"}, {"count", count}}); }), Catch::StartsWith("400 count: "));
