@@ -26,7 +26,7 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
 
 }  // namespace
 
-TEST_CASE("an ONNX export of a whole model agrees with it, for each encoding of angles") {
+TEST_CASE("an ONNX export of a whole model agrees with it, for each encoding of angles", "[slow]") {
   const TemporaryFolder folder;
   for (const auto encoding : {AngleEncoding::radians, AngleEncoding::sphere, AngleEncoding::harmonics})
     for (const int symmetries : {1, 8})

@@ -77,7 +77,7 @@ TEST_CASE("folding batch norms and activations changes only rounding") {
   CHECK(folded(graph, parameters, graph.output()).graph.nodes().size() < graph.nodes().size() * 2 / 3);
 }
 
-TEST_CASE("compiled networks agree with plain operations, at every layer") {
+TEST_CASE("compiled networks agree with plain operations, at every layer", "[slow]") {
   for (const auto& kind : backbone_kinds()) {
     // Every layer of the small networks, some of the large ones; the size leaves odd borders.
     const bool small = kind.name.starts_with("tiny"), separable = !kind.name.starts_with("vgg");

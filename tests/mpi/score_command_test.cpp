@@ -61,7 +61,7 @@ TEST_CASE("the ranges of the sampler are options") {
         "uniform; categories 2 to 3, objects 1 to 2, one pose, one view; singletons zero");
 }
 
-TEST_CASE("svnet-score writes the same bytes if it is killed at random moments and resumed") {
+TEST_CASE("svnet-score writes the same bytes if it is killed at random moments and resumed", "[slow]") {
   const Workplace place;
   const std::string rule = " --problems 1500000 --seed 3";
   REQUIRE(place.run("--output whole.h5" + rule).status == 0);

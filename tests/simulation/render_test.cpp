@@ -120,7 +120,7 @@ TEST_CASE("a block rests on its faces, the largest first, and stands on none of 
   for (const RestingPose& pose : resting_poses(box_mesh(4, 4, 200))) CHECK(1000 * pose.centre_height_m < 3);
 }
 
-TEST_CASE("every object of the catalogue is a solid of reasonable size that rests on the table") {
+TEST_CASE("every object of the catalogue is a solid of reasonable size that rests on the table", "[slow]") {
   REQUIRE(catalogue_names().size() == 29);
   for (const char* held_out : {"comb", "hammer", "knife", "toothbrush", "wrench"})
     CHECK(std::count(catalogue_names().begin(), catalogue_names().end(), held_out) == 1);

@@ -69,7 +69,7 @@ TEST_CASE("a damaged image of a later batch is named, after the batches before i
   Parallel::shared().resize(threads_before);
 }
 
-TEST_CASE("1, 2 and 8 threads, which take images in other batches, give the same bits") {
+TEST_CASE("1, 2 and 8 threads, which take images in other batches, give the same bits", "[slow]") {
   const TemporaryFolder folder;
   write_small_dataset(folder.path());
   const ViewDataset dataset = read_view_dataset(folder.path());

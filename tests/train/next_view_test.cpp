@@ -169,7 +169,7 @@ TEST_CASE("selectors of the next view take other views than those taken") {
   CHECK_THROWS_WITH(single.run("one"), Catch::Contains("next chooses 2 views or more; set evaluation.views"));
 }
 
-TEST_CASE("several backbones share the pairs, and rounds learn the next view once") {
+TEST_CASE("several backbones share the pairs, and rounds learn the next view once", "[slow]") {
   Bars bars;
   bars.config.dataset.held_out = {};
   bars.config.scores.backbones = {"tiny_xception", "mobilenet_v2"};
