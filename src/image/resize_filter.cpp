@@ -41,7 +41,7 @@ constexpr int kLowBits = 15;
 template <class V>
 HWY_INLINE hn::Vec<Words> pair_products(V a, V b) {
   constexpr Words words;
-#if HWY_ARCH_X86
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4  // better ones have smaller numbers; emulated vectors are summed otherwise
   auto none = hn::Zero(words);
   return hn::ReorderWidenMulAccumulate(words, a, b, hn::Zero(words), none);  // neighbours stay together
 #else
