@@ -2,6 +2,7 @@
 with the lines of branches that did not."""
 import collections
 import json
+import os
 import pathlib
 import sys
 
@@ -27,16 +28,27 @@ def runs_of_lines(segments):
     return runs
 
 
-def counts(file):
-    """Lines run, lines, branches taken, branches, lines with branches not taken."""
-    runs = runs_of_lines(file["segments"])
-    outcomes = collections.defaultdict(int)
-    for line, column, _, end, true, false, *_ in file["branches"]:
-        outcomes[line, column, end, True] += true
-        outcomes[line, column, end, False] += false
-    missed = sorted({place[0] for place, count in outcomes.items() if count == 0})
-    return [sum(count > 0 for count in runs.values()), len(runs),
-            sum(count > 0 for count in outcomes.values()), len(outcomes)], missed
+class Counts:
+    """What ran of one file, which may be listed under several names, as ../src/a.cpp and src/a.cpp."""
+
+    def __init__(self):
+        self.runs = {}
+        self.outcomes = collections.defaultdict(int)
+
+    def add(self, file):
+        for line, count in runs_of_lines(file["segments"]).items():
+            self.runs[line] = max(self.runs.get(line, 0), count)
+        for line, column, _, end, true, false, *_ in file["branches"]:
+            self.outcomes[line, column, end, True] += true
+            self.outcomes[line, column, end, False] += false
+
+    def values(self):
+        """Lines run, lines, branches taken, branches."""
+        return [sum(count > 0 for count in self.runs.values()), len(self.runs),
+                sum(count > 0 for count in self.outcomes.values()), len(self.outcomes)]
+
+    def missed(self):
+        return sorted({place[0] for place, count in self.outcomes.items() if count == 0})
 
 
 def share(part, whole):
@@ -44,21 +56,20 @@ def share(part, whole):
 
 
 def main(path, below=None):
-    sums = collections.defaultdict(lambda: [0, 0, 0, 0])
-    lines = {}
+    files = collections.defaultdict(Counts)
     for file in json.load(open(path))["data"][0]["files"]:
-        name = pathlib.Path(file["filename"]).relative_to(ROOT)
-        if name.parts[0] != "src" or (below and not str(name).startswith(below)):
-            continue
-        values, missed = counts(file)
-        lines[str(name)] = missed
-        for folder in [str(name)] if below else [str(name.parent), "/".join(name.parts[:2]) + "/*", "all"]:
-            for i, value in enumerate(values):
-                sums[folder][i] += value
+        name = os.path.relpath(os.path.normpath(file["filename"]), ROOT)
+        if name.startswith(below or "src/"):
+            files[name].add(file)
+    sums = collections.defaultdict(lambda: [0, 0, 0, 0])
+    for name, counts in files.items():
+        folder = str(pathlib.Path(name).parent)
+        for key in [name] if below else [folder, "/".join(folder.split("/")[:2]) + "/*", "all"]:
+            sums[key] = [a + b for a, b in zip(sums[key], counts.values())]
     print(f"{'folder':40} {'lines':>14} {'branches':>16}")
     for folder, (run, all_lines, taken, branches) in sorted(sums.items()):
         print(f"{folder:40} {share(run, all_lines)} {all_lines:6d} {share(taken, branches)} {branches:8d}",
-              *lines.get(folder, []) if below else [])
+              *files[folder].missed() if below else [])
 
 
 if __name__ == "__main__":
