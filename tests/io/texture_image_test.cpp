@@ -101,6 +101,12 @@ TEST_CASE("a BMP that is cut, compressed or damaged is refused") {
         "a.bmp: is a damaged or incomplete BMP image (it has 61 bytes of 62); replace the file");
 }
 
+TEST_CASE("the contents of a texture decide before its name") {
+  const Image image{1, 2, {200, 0, 0, 0, 0, 100}};
+  CHECK(levels_or_error("wood.tga", encoded_png("wood.tga", image)) == kTwoPixels);
+  CHECK(levels_or_error("wood.tga", bmp(0, 24, "", kBgr + le(0, 2))) == kTwoPixels);
+}
+
 TEST_CASE("a TGA is told by its name or by its footer") {
   const std::string file = tga(2, kBgr), footer = le(0, 8) + "TRUEVISION-XFILE."s + le(0, 1);
   CHECK(levels_or_error("wood.TGA", file) == kTwoPixels);
