@@ -50,6 +50,9 @@ TEST_CASE("camera files that cannot be used are named in one line") {
                 rest + "}") == name + "pose: z_m is 1e+300, expected metres in the world");
   CHECK(message(R"({"width": 640, "height": 480, "fx": 1e-9, "fy": 600, "cx": 320, "cy": 240})") ==
         name + "fx is 1e-09 for 640 pixels: no camera sees so much; is it in pixels?");
+  CHECK(message(R"({"width": 1e7, )" + rest + "}") == name + "width is 1e+07, expected a number of pixels");
+  CHECK_THROWS_WITH(read_camera(folder.path()),
+                    folder.path().string() + ": cannot be read; expected a JSON or YAML file of a camera");
   CHECK_THROWS_WITH(read_camera(folder.path() / "none"),
                     (folder.path() / "none").string() + ": cannot be read; expected a JSON or YAML file of a camera");
 }
@@ -136,4 +139,41 @@ TEST_CASE("cameras with distortion are refused, and say that images must be rect
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": [600, 0, 319.5]})") == "K has 3 numbers, expected 9");
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "K": 600})") == "K is not a list of numbers");
   CHECK(intrinsics_in(R"({"width": 640, "height": 480, "D": [0]})") == "the key 'K' is missing");
+}
+
+TEST_CASE("keys without a value say nothing of a camera") {
+  CHECK(intrinsics_in(ros_json("null")) == "600 601 319.5 239.5 of 640x480");
+  CHECK(intrinsics_in("width: 640\nheight: 480\nD:\ndistortion_model: ~\nroi: {do_rectify: false}\n"
+                      "K: [600, 0, 319.5, 0, 601, 239.5, 0, 0, 1]\n") == "600 601 319.5 239.5 of 640x480");
+  // ROS: P of a camera that is not calibrated
+  CHECK(intrinsics_in(ros_json("[]", R"(, "P": [0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0])")) ==
+        "600 601 319.5 239.5 of 640x480");
+}
+
+TEST_CASE("a file of camera_calibration_parsers is known by either of its sizes") {
+  CHECK(intrinsics_in("image_width: 640\n") == "the key 'image_height' is missing");
+  CHECK(intrinsics_in("image_height: 480\ncamera_matrix: [600, 0, 319.5, 0, 601, 239.5, 0, 0, 1]\n") ==
+        "the key 'image_width' is missing");
+  CHECK(intrinsics_in("image_width: 640\nimage_height: 480\n") == "the key 'camera_matrix' is missing");
+}
+
+TEST_CASE("a matrix that is not a pinhole camera's is refused") {
+  const auto camera = [](const std::string& k) {
+    return intrinsics_in(R"({"width": 640, "height": 480, "K": [)" + k + "]}");
+  };
+  REQUIRE(camera("600, 0, 319.5, 0, 601, 239.5, 0, 0, 1") == "600 601 319.5 239.5 of 640x480");
+  for (const char* k : {"600, 1, 319.5, 0, 601, 239.5, 0, 0, 1", "600, 0, 319.5, 1, 601, 239.5, 0, 0, 1",
+                        "600, 0, 319.5, 0, 601, 239.5, 1, 0, 1", "600, 0, 319.5, 0, 601, 239.5, 0, 1, 1",
+                        "600, 0, 319.5, 0, 601, 239.5, 0, 0, 2"})
+    CHECK(camera(k) == "K is not a pinhole camera's: expected fx 0 cx, 0 fy cy, 0 0 1");
+}
+
+TEST_CASE("a K and a P that differ by half a pixel in any number are different cameras") {
+  for (const char* p :
+       {"600.6, 0, 319.5, 0, 0, 601, 239.5, 0, 0, 0, 1, 0", "600, 0, 320.1, 0, 0, 601, 239.5, 0, 0, 0, 1, 0",
+        "600, 0, 319.5, 0, 0, 601.6, 239.5, 0, 0, 0, 1, 0", "600, 0, 319.5, 0, 0, 601, 238.9, 0, 0, 0, 1, 0"})
+    CHECK_THAT(intrinsics_in(ros_json("[]", joined(R"(, "P": [)", p, "]"))),
+               Catch::StartsWith("K and P are different cameras; leave out P"));
+  CHECK(intrinsics_in(ros_json("[]", R"(, "P": [600.4, 0, 319.5, 0, 0, 601, 239.9, 0, 0, 0, 1, 0])")) ==
+        "600 601 319.5 239.5 of 640x480");
 }

@@ -5,7 +5,9 @@
 #include <cstring>
 #include <limits>
 
+#include "base/error.h"
 #include "image/depth_unit.h"
+#include "io/images/image_codecs.h"
 #include "io/images/image_file.h"
 #include "temporary_folder.h"
 
@@ -14,10 +16,11 @@ using namespace svnet::io;
 
 namespace {
 
-/// A NumPy file, version 1.0, as numpy.save writes it.
-std::string npy(const std::string& dictionary, const std::string& data) {
+/// A NumPy file as numpy.save writes it; from version 2 on the header's length has four bytes.
+std::string npy(const std::string& dictionary, const std::string& data, char version = 1) {
   std::string header = dictionary + std::string(117 - dictionary.size(), ' ') + '\n';
-  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header + data;
+  return std::string("\x93NUMPY") + version + '\0' + static_cast<char>(header.size()) +
+         std::string(version == 1 ? 1 : 3, '\0') + header + data;
 }
 
 template <class Number>
@@ -46,6 +49,16 @@ TEST_CASE("depth is written and read in millimetres") {
   CHECK(depth.height == 2);
   CHECK(depth.width == 3);
   CHECK(depth.metres == std::vector<float>{0, 0.001f, 0.5f, 1.235f, 65.534f, 0});
+}
+
+TEST_CASE("depth that a PNG cannot hold is written and read as not measured") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "depth.png";
+  write_depth_png(path, {1, 4, {-1, std::nanf(""), 65.535f, 1}});
+  CHECK(read_depth(path).metres == std::vector<float>{0, 0, 0, 1});
+  // Cameras mark such pixels by the largest level too.
+  const std::string png = encoded_grey16_png("depth.png", {1, 3, {65535, 65534, 1000}});
+  CHECK(read_depth(folder.write("camera.png", png)).metres == std::vector<float>{0, 65.534f, 1});
 }
 
 TEST_CASE("depth is read from NumPy files of floats in metres") {
@@ -82,7 +95,22 @@ TEST_CASE("depth files that cannot be read are named in one line") {
             "holds numbers of the NumPy type '|u1', expected depth as float16, float32, float64 or integers of 16 to "
             "64 bits; 8 bits are too few for depth");
   CHECK(message("PK\3\4....") == name + "is a ZIP archive (.npz?), expected one array, by numpy.save");
-  for (const char* shape : {"(a, 2)", "1, 2", "(1"})
+  CHECK(message(npy("{'descr': '|i1', 'fortran_order': False, 'shape': (1, 8), }", data)) ==
+        name +
+            "holds numbers of the NumPy type '|i1', expected depth as float16, float32, float64 or integers of 16 to "
+            "64 bits; 8 bits are too few for depth");
+  for (const char* type : {"<f16", "=f4", "|f4"})
+    CHECK_THAT(message(npy(joined("{'descr': '", type, "', 'fortran_order': False, 'shape': (1, 2), }"), data)),
+               Catch::StartsWith(name + "holds numbers of the NumPy type '" + type + "', expected depth as "));
+  CHECK_THAT(message(npy("{'fortran_order': False, 'shape': (1, 2), }", data)),
+             Catch::StartsWith(name + "holds numbers of the NumPy type '', expected depth as "));
+  CHECK(message(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (1, 2), }", data + "x")) ==
+        name + "is a damaged NumPy file (its size is not that of its array); replace the file");
+  CHECK(message(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (0, 3), }", "")) ==
+        name + "has no pixels (3x0)");
+  CHECK(message(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (3, 0), }", "")) ==
+        name + "has no pixels (0x3)");
+  for (const char* shape : {"(a, 2)", "1, 2", "(1", "(-1, 2)"})
     CHECK(message(npy(std::string("{'descr': '<f4', 'fortran_order': False, 'shape': ") + shape + ", }", data)) ==
           name + "is a damaged NumPy file (its header names no shape); replace the file");
   for (const char* shape : {"(2,)", "(3, 2, 2)", "()"})
@@ -105,9 +133,14 @@ TEST_CASE("depth files that cannot be read are named in one line") {
   CHECK(numbers(0, std::numeric_limits<float>::quiet_NaN()) == no_distance);
   write_png(folder.path() / "d", {1, 2, std::vector<std::uint8_t>(6)});
   CHECK(refusal(folder.path() / "d") == name + "is a PNG of another kind, expected 16-bit grey, depth in millimetres");
+  const std::vector<std::uint8_t> grey(2);
+  CHECK(message(encoded_grey_png("d", 1, 2, grey)) ==
+        name + "is a PNG of another kind, expected 16-bit grey, depth in millimetres");
   write_depth_png(folder.path() / "d", {1, 2, {1, 2}});
   const std::string png = file_contents(folder.path() / "d");
   CHECK_THAT(message(png.substr(0, png.size() - 20)), Catch::Contains("is a damaged or incomplete PNG image"));
+  CHECK(message(png.substr(0, 20)) ==
+        name + "is a damaged or incomplete PNG image (the file ends too early); replace the file");
 }
 
 TEST_CASE("depth is read from every array that NumPy writes for it") {
@@ -137,6 +170,10 @@ TEST_CASE("depth is read from every array that NumPy writes for it") {
     CAPTURE(shape);
     CHECK(read("<f4", shape, floats).metres == metres);
     CHECK(read("<f4", shape, floats).width == 3);
+  }
+  for (const char version : {2, 3}) {
+    const std::string file = npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 3), }", floats, version);
+    CHECK(read_depth(folder.write("d.npy", file)).metres == metres);
   }
   // By columns: of (2, 3) the array's second element in memory is the first of the second row.
   CHECK(read("<f4", "(2, 3)", bytes(std::vector<float>{0.5f, 2, 1, 2.5f, 1.5f, 3}), true).metres == metres);

@@ -77,6 +77,17 @@ TEST_CASE("features, angles and labels of another program are read") {
   CHECK(features.values == std::vector<float>{1, 2, 3, 4, 5, 6});
   CHECK(features.theta_phi_deg[1] == std::array<double, 2>{315, 45});
   CHECK(features.backbone.empty());
+  {
+    Hdf5File file = Hdf5File::create(path);
+    file.write_text_attribute("", "backbone", "resnet50");
+    file.write<double>("features", {1, 1}, std::vector<double>{std::numeric_limits<double>::quiet_NaN()});
+    file.write<double>("th_ph", {1, 2}, std::vector<double>{90, 90});
+    file.write<std::int64_t>("labels", {1}, std::vector<std::int64_t>{4});
+    file.close();
+  }
+  CHECK(read_features_origin(path).backbone == "resnet50");
+  CHECK(read_features_origin(path).output.empty());
+  CHECK_THROWS_WITH(read_features(path), Contains("dataset 'features': row 0 has a value that is not finite"));
   write({4});
   CHECK_THROWS_WITH(read_features(path), Contains("dataset 'labels': has 1 rows, 'features' has 2"));
 }
@@ -112,6 +123,11 @@ TEST_CASE("features that are incomplete or not finite are not written and replac
   CHECK_THAT(message([](Features& f) { f.theta_phi_deg.pop_back(); }), Contains("'th_ph': has 1 rows"));
   CHECK_THAT(message([](Features& f) { f.values.pop_back(); }), Contains("holds 5 values for 2x3"));
   CHECK_THAT(message([](Features& f) { f.count = 0; }), Contains("'features': is empty, 0x3"));
+  CHECK_THAT(message([](Features& f) { f.dimension = 0; }), Contains("'features': is empty, 2x0"));
+  CHECK_THAT(message([](Features& f) {
+               f.labels = {0, 1}, f.paths.pop_back();
+             }),
+             Contains("'paths': has 1 rows, 'features' has 2"));
   CHECK_THAT(message([](Features& f) { f.paths[1] = "\xff"; }), Contains("f.h5: dataset 'paths'") && Contains("UTF-8"));
   CHECK(file_contents(path) == before);
 }

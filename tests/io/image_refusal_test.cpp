@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/error.h"
+#include "io/images/image_codecs.h"
 #include "io/images/image_file.h"
 #include "temporary_folder.h"
 
@@ -143,4 +144,28 @@ TEST_CASE("an image too large is refused by its header alone") {
   jpeg.replace(frame + 5, 4, "\x4e\x20\x4e\x20");
   CHECK(refusal(folder.write("a.jpg", jpeg)) ==
         "has 20000x20000 pixels, more than the 64 megapixels that are read; make it smaller");
+}
+
+TEST_CASE("a JPEG of two colour channels is refused") {
+  const TemporaryFolder folder;
+  const std::string frame("\xff\xc0\0\x0e\x08\0\1\0\1\2\1\x11\0\2\x11\0", 16);
+  const std::string scan("\xff\xda\0\x0a\2\1\0\2\0\0\x3f\0", 12);
+  CHECK(refusal(folder.write("a.jpg", "\xff\xd8" + frame + scan)) ==
+        "is a JPEG image with 2 colour channels, expected 1 (grey), 3 or 4 (CMYK); convert it to RGB");
+}
+
+TEST_CASE("a WebP whose header or pixels are damaged is refused") {
+  const TemporaryFolder folder;
+  std::string header = file_contents(kImages / "lossy.webp"), pixels = file_contents(kImages / "lossless.webp");
+  header.replace(12, 4, "????");
+  CHECK(refusal(folder.write("a.webp", header)) ==
+        "is a damaged or incomplete WebP image (its header cannot be read); replace the file");
+  pixels.replace(30, pixels.size() - 30, pixels.size() - 30, '\xff');
+  CHECK(refusal(folder.write("a.webp", pixels)) ==
+        "is a damaged or incomplete WebP image (its pixels cannot be decoded); replace the file");
+}
+
+TEST_CASE("a codec that lacks memory does not call the file damaged") {
+  for (const char* reason : {"Insufficient memory (case 4)", "Out of memory", "outofmem"})
+    CHECK_THROWS_AS(fail_damaged("a.jpg", "JPEG", reason), std::bad_alloc);
 }

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "io/hdf5/hdf5_file.h"
 #include "io/keras/keras_graph.h"
+#include "io/keras/snake_case.h"
 #include "models/registry.h"
 #include "nn/graph/keras_order.h"
 #include "temporary_folder.h"
@@ -130,6 +132,7 @@ TEST_CASE("a network with another top on it is read, legacy layout") {
   file.add(dense("dense", 1024, 5));
   file.close();
   check_read("mobilenet", folder.path() / "tuned.h5", layers, {"dense"});
+  check_read("mobilenet", folder.path() / "tuned.h5", layers, {"dense"}, "conv_pw_13_relu");
 }
 
 TEST_CASE("a network with another top on it is read, Keras 3") {
@@ -142,6 +145,16 @@ TEST_CASE("a network with another top on it is read, Keras 3") {
   file.close();
   layers.pop_back();
   check_read("mobilenet", path, layers, {"dense"});
+}
+
+TEST_CASE("a whole network is read with its own top, Keras 3") {
+  const TemporaryFolder folder;
+  const auto layers = layers_of("mobilenet", true);
+  const auto path = folder.path() / "whole.weights.h5";
+  Hdf5File file = Hdf5File::create(path);
+  add_keras3(file, "layers", layers);
+  file.close();
+  check_read("mobilenet", path, layers, {}, "conv_preds");
 }
 
 TEST_CASE("VGG16 with three dense layers of its user is read, and its top as far as it is Keras'") {
@@ -214,4 +227,74 @@ TEST_CASE("two models that fit are refused by their names, and one that does not
     file.close();
   }
   CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""), Contains("the model needs 54; missing: conv_pw_13_bn"));
+}
+
+TEST_CASE("layers or arrays in another order than the model's are refused by name") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "w.h5";
+  const auto message = [&](const std::vector<NamedLayer>& layers) -> std::string {
+    {
+      LegacyFile file(path);
+      for (const NamedLayer& layer : layers) file.add(layer);
+      file.close();
+    }
+    try {
+      read_keras_backbone("mobilenet", path, "");
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "read";
+  };
+  const auto layers = layers_of("mobilenet", false);
+  REQUIRE(message(layers) == "read");
+  auto swapped = layers;
+  std::swap(swapped[2], swapped[4]);
+  CHECK_THAT(message(swapped),
+             Contains(joined("layer 3 is '", layers[4].name, "' where the model has '", layers[2].name,
+                             "'; the layers of the file are not in the order of the model")));
+  swapped = layers;
+  REQUIRE(swapped[1].arrays[0].name == "gamma");
+  std::swap(swapped[1].arrays[0], swapped[1].arrays[1]);
+  CHECK_THAT(message(swapped), Contains(joined("layer '", layers[1].name,
+                                               "' has its 'beta' where 'gamma' belongs; the weights of a layer must be "
+                                               "in Keras' order")));
+}
+
+TEST_CASE("names that Keras made say nothing of a layer's place, others that look alike do not matter") {
+  const TemporaryFolder folder;
+  for (const char* name : {"conv2d", "conv2d_7", "conv2d_", "conv2d10", "conv2d_a", "mine"}) {
+    CAPTURE(name);
+    auto layers = layers_of("mobilenet", false);
+    const auto path = folder.path() / "w.h5";
+    const std::string original = std::exchange(layers[0].name, name);
+    {
+      LegacyFile file(path);
+      for (const NamedLayer& layer : layers) file.add(layer);
+      file.close();
+    }
+    layers[0].name = original;
+    check_read("mobilenet", path, layers, {});
+  }
+}
+
+TEST_CASE("Keras 3 weights with a layer too few of a class are refused by the layer that lacks them") {
+  const TemporaryFolder folder;
+  auto layers = layers_of("mobilenet", false);
+  const auto path = folder.path() / "w.weights.h5";
+  layers.pop_back();
+  Hdf5File file = Hdf5File::create(path);
+  add_keras3(file, "layers", layers);
+  file.close();
+  CHECK_THROWS_WITH(read_keras_backbone("mobilenet", path, ""),
+                    Contains("w.weights.h5: ") && Contains("conv_pw_13_bn"));
+}
+
+TEST_CASE("class names become Keras' names of layers") {
+  for (const auto& [class_name, name] : {std::pair("Conv2D", "conv2d"),
+                                         {"GlobalAveragePooling2D", "global_average_pooling2d"},
+                                         {"BatchNormalization", "batch_normalization"},
+                                         {"PReLU", "p_re_lu"},
+                                         {"LSTMCell", "lstm_cell"},
+                                         {"Add", "add"}})
+    CHECK(snake_case(class_name) == name);
 }

@@ -2,6 +2,8 @@
 
 #include <catch2/catch.hpp>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include "base/error.h"
 #include "io/hdf5/hdf5_file.h"
@@ -235,6 +237,58 @@ TEST_CASE("Keras 3 weights with a missing layer are refused") {
   file.close();
   CHECK_THROWS_WITH(read_weights(path),
                     Contains("w.weights.h5: group 'layers/dense/vars' holds '1' where '0' is expected"));
+}
+
+TEST_CASE("a number at the end of a Keras 3 group's name is its counter, if there is a class before it") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "w.weights.h5";
+  Hdf5File file = Hdf5File::create(path);
+  const std::vector<float> one{1};
+  for (const char* layer : {"dense_12", "dense_", "dense12", "12", "_12", "dense_1234567890"})
+    file.write<float>(joined("layers/", layer, "/vars/0"), {1}, one);
+  file.write<float>("layers/loose", {1}, one);  // an array where layers are, which is none
+  file.close();
+  std::map<std::string, std::pair<std::string, std::int64_t>> classes;
+  for (const auto& layer : read_weights(path)) classes[layer.path] = {layer.class_name, layer.counter};
+  CHECK(classes ==
+        std::map<std::string, std::pair<std::string, std::int64_t>>{{"dense_12", {"dense", 12}},
+                                                                    {"dense_", {"dense_", 0}},
+                                                                    {"dense12", {"dense12", 0}},
+                                                                    {"12", {"12", 0}},
+                                                                    {"_12", {"_12", 0}},
+                                                                    {"dense_1234567890", {"dense_1234567890", 0}}});
+}
+
+TEST_CASE("groups of a Keras 3 file that are nested without end are refused") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "w.weights.h5";
+  Hdf5File file = Hdf5File::create(path);
+  std::string group = "layers";
+  for (int depth = 0; depth < 20; ++depth) group += "/a";
+  file.create_group(group);
+  file.close();
+  CHECK_THROWS_WITH(read_weights(path), Contains("w.weights.h5: group 'layers/a/a") &&
+                                            Contains("is nested too deeply; the file is damaged"));
+}
+
+TEST_CASE("arrays of a legacy layer that name several layers are a model inside the model") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "w.h5";
+  Hdf5File file = Hdf5File::create(path);
+  const Texts names{"inner/conv/kernel:0", "other/bias:0", "inner/conv/bias:0"};
+  for (const std::string& name : names) file.write<float>("inner/" + name, {1}, std::vector<float>{1});
+  file.write_text_list_attribute("inner", "weight_names", names);
+  file.create_group("top_level_model_weights");  // of a model without weights of its own; Keras may leave out the list
+  file.write_text_list_attribute("", "layer_names", Texts{"inner"});
+  file.close();
+  const auto layers = read_weights(path);
+  REQUIRE(layers.size() == 2);
+  CHECK(layers[0].path == "inner/conv");
+  CHECK(layers[0].model == "inner");
+  CHECK(layers[0].layer_name == "conv");
+  CHECK(array_names(layers[0]) == Texts{names[0], names[2]});
+  CHECK(layers[1].path == "inner/other");
+  CHECK(layers[1].layer_name == "other");
 }
 
 TEST_CASE("a real MobileNetV2 is read completely") {

@@ -26,8 +26,11 @@ TEST_CASE("a pose list may begin with a byte order mark") {
 
 TEST_CASE("a pose list in UTF-16, as spreadsheets save \"Unicode text\", is named") {
   const TemporaryFolder folder;
-  const auto path = folder.write("poses.csv", std::string("\xff\xfet\0h\0e\0t\0a\0", 12));
-  CHECK_THROWS_WITH(read_pose_list(path), path.string() + ": is text in UTF-16; save it as UTF-8");
+  for (const std::string& text :
+       {std::string("\xff\xfet\0h\0e\0t\0a\0", 12), std::string("\xfe\xff\0t\0h\0e\0t\0a", 12)}) {
+    const auto path = folder.write("poses.csv", text);
+    CHECK_THROWS_WITH(read_pose_list(path), path.string() + ": is text in UTF-16; save it as UTF-8");
+  }
 }
 
 TEST_CASE("a pose list may have further columns, as svnet-views writes them") {
@@ -88,6 +91,9 @@ TEST_CASE("a wrong pose list is refused with file and line") {
   };
   const std::string not_two = "' does not begin with two numbers, theta and phi in degrees";
   CHECK(message("phi,theta\n45,0\n") == ":1: the header is 'phi,theta', expected 'theta,phi'");
+  CHECK(message("theta\n0\n") == ":1: the header is 'theta', expected 'theta,phi'");
+  CHECK(message("theta,psi\n0,45\n") == ":1: the header is 'theta,psi', expected 'theta,phi'");
+  CHECK(message("theta,phi\n0,45,") == ":2: '0,45,' has 3 columns, the header 2");
   CHECK(message("\n0,45\n") == ":2: the header is '0,45', expected 'theta,phi'");
   CHECK(message("theta,phi\n0,45\n0 45\n") == ":3: '0 45' has 1 columns, the header 2");
   CHECK(message("theta,phi\n0,45,1\n") == ":2: '0,45,1' has 3 columns, the header 2");

@@ -70,6 +70,7 @@ TEST_CASE("a file of the Python package is read") {
   CHECK(values<std::int64_t>(file.at("é \"quoted\"\n")) == std::vector<std::int64_t>{-1});
   CHECK(file.find("missing") == nullptr);
   CHECK_THROWS_WITH(file.at("weights"), kPython + ": holds no tensor 'weights', did you mean 'weight'?");
+  CHECK_THROWS_WITH(file.at("gradients"), kPython + ": holds no tensor 'gradients'");
 }
 
 TEST_CASE("the bytes written are those of the Python package") {
@@ -142,6 +143,7 @@ TEST_CASE("files that are not safetensors are refused") {
   CHECK_THROWS_WITH(SafetensorsFile(folder.path()), Contains("is not a regular file"));
   CHECK(message_for("") == "has only 0 bytes; is it a safetensors file?");
   CHECK(message_for("1234567") == "has only 7 bytes; is it a safetensors file?");
+  CHECK_THAT(message_for(std::string(8, '\xff')), Contains("declares a header of 18446744073709551615 bytes"));
   CHECK_THAT(message_for(file_of("{}", "", 3)), Contains("declares a header of 3 bytes in a file of 10"));
   CHECK_THAT(message_for(file_of("{}", "", UINT64_MAX)), Contains("declares a header of 18446744073709551615 bytes"));
   CHECK_THAT(message_for(file_of("")), Contains("header is not a JSON object"));
@@ -149,6 +151,9 @@ TEST_CASE("files that are not safetensors are refused") {
   CHECK_THAT(message_for(file_of("[]")), Contains("header is not a JSON object"));
   CHECK_THAT(message_for(file_of("{} x")), Contains("header is not JSON (at its byte 4)"));
   CHECK_THAT(message_for(file_of("{\"\xff\":1}")), Contains("header is not JSON"));
+  CHECK(message_for(file_of(R"({"a":{"b":{"c":{"d":{}}}}})")) == "tensor 'a': its entry in the header has no dtype");
+  CHECK(message_for(file_of(R"({"a":{"b":{"c":{"d":{"e":{}}}}}})")) == "header is nested too deeply");
+  CHECK(message_for("\x89HDF\r\n\x1a\n" + std::string(8, '\0')) == "is not a safetensors file, but an HDF5 file");
   CHECK_THAT(message_for(file_of("{\"a\":" + std::string(100'000, '['))), Contains("header is nested too deeply"));
 }
 

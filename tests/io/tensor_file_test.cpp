@@ -106,3 +106,25 @@ TEST_CASE("an int8 tensor without scales, or with others, is refused") {
   CHECK_THROWS_WITH(TensorFile::read(folder.path() / "other.safetensors", "weights"),
                     Contains("tensor 'layer/kernel.scale' is F32 1x3, expected F32 3"));
 }
+
+TEST_CASE("a tensor of a dtype that weights never have is refused by name") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "t.safetensors";
+  const std::vector<double> wide{1, 2};
+  const std::vector<SafetensorsTensor> tensors{{"layer/kernel", "F64", {2}, std::as_bytes(std::span(wide))}};
+  write_safetensors(path, tensors, {{"svnet", R"({"kind": "weights", "format": 1})"}});
+  CHECK_THROWS_WITH(TensorFile::read(path, "weights"),
+                    path.string() + ": tensor 'layer/kernel' is F64, expected F32, BF16 or I8");
+}
+
+TEST_CASE("a tensor of one number has one scale in int8") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "t.safetensors";
+  const std::vector<float> number{-0.75f};
+  TensorFile file;
+  file.description()["kind"] = "weights";
+  file.add("temperature", Tensor::from({}, number), StoredPrecision::int8);
+  file.write(path);
+  CHECK(SafetensorsFile(path).at("temperature.scale").shape == Shape{1});
+  CHECK(TensorFile::read(path, "weights").at("temperature", {}).data<float>()[0] == -0.75f);
+}

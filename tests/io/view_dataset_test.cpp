@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <set>
 
+#include "io/views/composed_name.h"
 #include "io/views/dataset_folder.h"
 #include "io/views/dataset_notes.h"
 #include "shared_folder.h"
@@ -144,6 +145,25 @@ TEST_CASE("what systems leave beside images is ignored and counted") {
   CHECK(std::count(notes[0].begin(), notes[0].end(), '\n') == 0);
 }
 
+TEST_CASE("up to three ignored files are named in full") {
+  const TemporaryFolder folder;
+  for (const char* path : {"a.txt", "b.txt", "c.txt", "mug/1/a/90_90.png"}) folder.write(path, "");
+  const auto notes = dataset_notes(read_view_dataset(folder.path(), ExifOrientation::obey), Parallel::shared());
+  REQUIRE(notes.size() == 1);
+  CHECK(notes[0] == folder.path().string() +
+                        ": 3 files or folders that are no images of a category are ignored: a.txt, b.txt, c.txt");
+}
+
+TEST_CASE("names that begin with '_' or '.' and those that systems leave are ignored") {
+  for (const char* name : {"_extra", ".git", "Thumbs.db", "desktop.ini", "lost+found"}) CHECK(is_ignored_name(name));
+  for (const char* name : {"mug", "a_b", "90_90.png"}) CHECK_FALSE(is_ignored_name(name));
+}
+
+TEST_CASE("a name that is not UTF-8 stays as it is") {
+  CHECK(composed_name("caf\xe9") == "caf\xe9");  // Latin 1
+  CHECK(composed_name("cafe\xcc\x81") == "caf\xc3\xa9");
+}
+
 TEST_CASE("names of categories are the same composed (NFC) and decomposed (NFD)") {
   const std::string composed = "caf\xc3\xa9", decomposed = "cafe\xcc\x81";
   const auto dataset_with = [](const TemporaryFolder& folder, const std::string& name) {
@@ -175,5 +195,6 @@ TEST_CASE("an EXIF orientation is reported if it is ignored, and obeying it is a
         "2 of 3 images have an EXIF orientation other than 1, which is ignored (mug/1/a/45_0.jpg: 6); "
         "exif_orientation obey turns them as viewers do");
   CHECK(dataset_notes(obeyed, Parallel::shared()).empty());
+  CHECK(exif_note("a.jpg", 6, 1, 1, "--exif").starts_with("1 of 1 image has an EXIF orientation other than 1, "));
   CHECK(fingerprint(ignored, Parallel::shared()) != fingerprint(obeyed, Parallel::shared()));
 }

@@ -15,6 +15,8 @@
 namespace svnet::io {
 namespace {
 
+static_assert(std::endian::native == std::endian::little);  // the levels of a PNG are big-endian: png_set_swap
+
 /// libpng with errors that return here and without warnings (most are about colour profiles). It checks the CRC of
 /// every critical chunk, and reading up to the end chunk refuses truncated files.
 ///
@@ -65,7 +67,7 @@ class PngDecoder {
   /// rows: the addresses of height rows of width 16-bit levels.
   bool read_grey16(std::uint8_t** rows) {
     if (setjmp(back_) != 0) return false;
-    if constexpr (std::endian::native == std::endian::little) png_set_swap(png_);
+    png_set_swap(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
     png_read_image(png_, rows);
@@ -176,8 +178,7 @@ class PngEncoder {
     png_set_compression_strategy(png_, Z_RLE);
     png_set_compression_buffer_size(png_, std::size_t{1} << 16);
     png_write_info(png_, info_);
-    if constexpr (std::endian::native == std::endian::little)
-      if (format.bits == 16) png_set_swap(png_);
+    if (format.bits == 16) png_set_swap(png_);
     for (Index row = 0; row < height; ++row)
       png_write_row(png_, rows + static_cast<std::size_t>(row) * format.row_bytes);
     png_write_end(png_, info_);

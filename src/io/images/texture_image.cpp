@@ -20,15 +20,13 @@ std::uint64_t number_at(Bytes file, std::size_t at, std::size_t bytes) {
   return number;
 }
 
-/// The bytes that pixels which are not compressed need; stb takes missing ones for black. 0 where they are compressed.
+/// The bytes that pixels need; stb takes missing ones for black. It reads no BMP that is compressed.
 std::uint64_t bmp_bytes(Bytes file, const Image& image) {
-  constexpr std::uint64_t kPlain = 0, kMasks = 3;  // compression
-  const std::uint64_t compression = number_at(file, 14, 4) < 40 ? kPlain : number_at(file, 30, 4);
   const std::uint64_t bits = number_at(file, number_at(file, 14, 4) < 40 ? 24 : 28, 2);
-  if (compression != kPlain && compression != kMasks) return 0;
   return number_at(file, 10, 4) +
          (static_cast<std::uint64_t>(image.width) * bits + 31) / 32 * 4 * static_cast<std::uint64_t>(image.height);
 }
+/// The same of pixels that are not compressed; 0 if they are.
 std::uint64_t tga_bytes(Bytes file, const Image& image) {
   constexpr std::size_t kHeader = 18;
   if (number_at(file, 2, 1) > 3) return 0;
@@ -107,14 +105,14 @@ Image decode_tiff(const std::string& name, Bytes bytes) {
       TIFFClose);
   // libtiff says of sizes that a damaged file asks for, as of memory that is missing, that it cannot allocate them.
   const auto fail_tiff = [&] {
-    check(file.complaint.find("memory") == std::string::npos && file.complaint.find("allocat") == std::string::npos, name,
-          ": cannot be decoded as TIFF (", file.complaint, "); the file is damaged, or memory is missing");
+    check(file.complaint.find("memory") == std::string::npos && file.complaint.find("allocat") == std::string::npos,
+          name, ": cannot be decoded as TIFF (", file.complaint, "); the file is damaged, or memory is missing");
     fail_damaged(name, "TIFF", file.complaint.empty() ? "it cannot be decoded" : file.complaint);
   };
-  std::uint32_t width = 0, height = 0;
-  if (tiff == nullptr || TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width) == 0 ||
-      TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height) == 0)
-    fail_tiff();
+  if (tiff == nullptr) fail_tiff();
+  std::uint32_t width = 0, height = 0;  // stay 0, which image_of_size refuses, if the file does not have them
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff.get(), TIFFTAG_IMAGELENGTH, &height);
   Image image = image_of_size(name, height, width);
   std::vector<std::uint32_t> pixels(std::size_t{width} * height);
   if (TIFFReadRGBAImageOriented(tiff.get(), width, height, pixels.data(), ORIENTATION_TOPLEFT, 1) == 0) fail_tiff();

@@ -19,11 +19,9 @@ class Writing {
 
   template <class T>
   void operator()(const char* name, const T& value) {
-    if constexpr (std::is_enum_v<T>)
-      config_[name] = name_of(value);
-    else
-      config_[name] = value;
+    config_[name] = value;
   }
+  void operator()(const char* name, Activation value) { config_[name] = name_of(value); }
   void pair(const char* name, Index first, Index second) { config_[name] = {first, second}; }
   void padding(const Padding& padding) {
     check(padding.kind != Padding::Kind::explicit_, "Keras has no explicit padding for this layer");
@@ -46,10 +44,10 @@ class Reading {
 
   template <class T>
   void operator()(const char* name, T& value) {
-    if constexpr (std::is_enum_v<T>)
-      value = enum_from_name<T>("unknown value", config_.at(name).get<std::string>());
-    else
-      config_.at(name).get_to(value);
+    config_.at(name).get_to(value);
+  }
+  void operator()(const char* name, Activation& value) {
+    value = enum_from_name<Activation>("unknown value", config_.at(name).get<std::string>());
   }
   void pair(const char* name, Index& first, Index& second) {
     const auto sizes = config_.at(name).get<std::array<Index, 2>>();
@@ -84,47 +82,41 @@ void product_attributes(auto& io, auto& layer) {
   io("activation", layer.activation);
 }
 
-template <class Io, class L>
-void attributes(Io& io, L& layer) {
-  using Kind = std::remove_const_t<L>;
-  if constexpr (std::is_same_v<Kind, InputLayer>) {
-    io.batch_shape(layer.shape);
-  } else if constexpr (std::is_same_v<Kind, Conv2dLayer>) {
-    io("filters", layer.filters);
-    window_attributes(io, layer, "kernel_size");
-    product_attributes(io, layer);
-  } else if constexpr (std::is_same_v<Kind, DepthwiseConv2dLayer>) {
-    io("depth_multiplier", layer.multiplier);
-    window_attributes(io, layer, "kernel_size");
-    product_attributes(io, layer);
-  } else if constexpr (std::is_same_v<Kind, SeparableConv2dLayer>) {
-    io("filters", layer.filters);
-    io("depth_multiplier", layer.multiplier);
-    window_attributes(io, layer, "kernel_size");
-    product_attributes(io, layer);
-  } else if constexpr (std::is_same_v<Kind, DenseLayer>) {
-    io("units", layer.units);
-    product_attributes(io, layer);
-  } else if constexpr (std::is_same_v<Kind, BatchNormLayer>) {
-    io("momentum", layer.options.momentum);
-    io("epsilon", layer.options.epsilon);
-  } else if constexpr (std::is_same_v<Kind, ActivationLayer>) {
-    io("activation", layer.activation);
-  } else if constexpr (std::is_same_v<Kind, Pool2dLayer>) {
-    window_attributes(io, layer.window, "pool_size");
-  } else if constexpr (std::is_same_v<Kind, GlobalPool2dLayer>) {
-    io("keepdims", layer.keep_dimensions);
-  } else if constexpr (std::is_same_v<Kind, ZeroPadding2dLayer>) {
-    io.zeros(layer.padding);
-  } else if constexpr (std::is_same_v<Kind, ReshapeLayer>) {
-    io("target_shape", layer.shape);
-  } else if constexpr (std::is_same_v<Kind, DropoutLayer>) {
-    io("rate", layer.rate);
-  } else {
-    static_assert(std::is_same_v<Kind, AddLayer> || std::is_same_v<Kind, MultiplyLayer> ||
-                  std::is_same_v<Kind, ConcatLayer> || std::is_same_v<Kind, FlattenLayer>);
-  }
+void attributes(auto& io, InputLayer& layer) { io.batch_shape(layer.shape); }
+void attributes(auto& io, Conv2dLayer& layer) {
+  io("filters", layer.filters);
+  window_attributes(io, layer, "kernel_size");
+  product_attributes(io, layer);
 }
+void attributes(auto& io, DepthwiseConv2dLayer& layer) {
+  io("depth_multiplier", layer.multiplier);
+  window_attributes(io, layer, "kernel_size");
+  product_attributes(io, layer);
+}
+void attributes(auto& io, SeparableConv2dLayer& layer) {
+  io("filters", layer.filters);
+  io("depth_multiplier", layer.multiplier);
+  window_attributes(io, layer, "kernel_size");
+  product_attributes(io, layer);
+}
+void attributes(auto& io, DenseLayer& layer) {
+  io("units", layer.units);
+  product_attributes(io, layer);
+}
+void attributes(auto& io, BatchNormLayer& layer) {
+  io("momentum", layer.options.momentum);
+  io("epsilon", layer.options.epsilon);
+}
+void attributes(auto& io, ActivationLayer& layer) { io("activation", layer.activation); }
+void attributes(auto& io, Pool2dLayer& layer) { window_attributes(io, layer.window, "pool_size"); }
+void attributes(auto& io, GlobalPool2dLayer& layer) { io("keepdims", layer.keep_dimensions); }
+void attributes(auto& io, ZeroPadding2dLayer& layer) { io.zeros(layer.padding); }
+void attributes(auto& io, ReshapeLayer& layer) { io("target_shape", layer.shape); }
+void attributes(auto& io, DropoutLayer& layer) { io("rate", layer.rate); }
+void attributes(auto&, AddLayer&) {}
+void attributes(auto&, MultiplyLayer&) {}
+void attributes(auto&, ConcatLayer&) {}
+void attributes(auto&, FlattenLayer&) {}
 
 /// What a layer's call takes: the output of another layer.
 json keras_tensor(const GraphNode& node) {
@@ -143,7 +135,7 @@ json layer_config(const Graph& graph, const GraphNode& node) {
   json config = {{"name", node.name}, {"dtype", "float32"}};
   try {
     Writing writing(config);
-    std::visit([&](const auto& layer) { attributes(writing, layer); }, node.layer);
+    std::visit([&](auto layer) { attributes(writing, layer); }, node.layer);
   } catch (const Error& error) {
     fail("[keras] layer '", node.name, "': ", error.what());
   }
