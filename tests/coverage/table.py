@@ -27,11 +27,20 @@ def runs_of_lines(segments):
     return runs
 
 
+def compile_time_lines(path):
+    """The lines whose conditions the compiler decides: llvm-cov counts neither outcome of them."""
+    with open(path) as source:
+        return {number for number, line in enumerate(source, 1) if "if constexpr" in line}
+
+
 def counts(file):
     """Lines run, lines, branches taken, branches, lines with branches not taken."""
     runs = runs_of_lines(file["segments"])
     outcomes = collections.defaultdict(int)
+    decided = compile_time_lines(file["filename"])
     for line, column, _, end, true, false, *_ in file["branches"]:
+        if line in decided:
+            continue
         outcomes[line, column, end, True] += true
         outcomes[line, column, end, False] += false
     missed = sorted({place[0] for place, count in outcomes.items() if count == 0})
