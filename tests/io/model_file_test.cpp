@@ -323,6 +323,13 @@ TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") 
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 2 means and 3 deviations, expected 3");
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["limit"] = -1; });
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: a deviation or the limit in seen is negative");
+  // A number that is not finite cannot be said in JSON.
+  const SafetensorsFile good(path);
+  auto metadata = good.metadata();
+  std::string& description = metadata.at("svnet");
+  description.replace(description.find("2.5"), 3, "1e999");
+  write_safetensors(bad, good.tensors(), metadata);
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": ") && Catch::Contains("1e999"));
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"].erase("deviation"); });
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
 }
