@@ -2,10 +2,13 @@
 // refused.
 #include <array>
 #include <catch2/catch.hpp>
+#include <filesystem>
+#include <new>
 
 #include "base/error.h"
 #include "io/hdf5/collected.h"
 #include "io/hdf5/limits.h"
+#include "io/hdf5/remote_file.h"
 #include "io/hdf5/wire.h"
 #include "sandbox/child.h"
 
@@ -190,4 +193,26 @@ TEST_CASE("a request that breaks the protocol ends the process that reads files"
   CHECK(outcome_of(kRequest, request(8)) == "refused");
   CHECK(outcome_of(kTruth, request(3)) == "refused");
   CHECK(outcome_of(kRequest, "short") == "refused");
+}
+
+TEST_CASE("after an answer that could not be taken, a file is not asked again") {
+  struct Full : Collected {
+    using Collected::Collected;
+    void truth(bool) override { throw std::bad_alloc(); }
+  };
+  const std::string path = SVNET_FIXTURES "/io/h5py.h5";
+  const auto size = std::filesystem::file_size(path);
+  const Request request{.ask = Ask::has, .object = "packed"};
+  RemoteFile file(path, size), other(path, size);
+  Collected answer(path, size), twice(path, size);
+  file.answer(request, answer);
+  CHECK(answer.take_truth());
+  Full full(path, size);
+  CHECK_THROWS_AS(file.answer(request, full), std::bad_alloc);
+  CHECK_THROWS_AS(file.answer(request, twice), std::bad_alloc);
+
+  twice.truth(true);
+  const std::string refusal = path + kRefusal.substr(4);
+  CHECK_THROWS_WITH(other.answer(request, twice), refusal);
+  CHECK_THROWS_WITH(other.answer(request, answer), refusal);
 }

@@ -172,6 +172,24 @@ TEST_CASE("sizes that the file cannot hold are refused before memory is taken") 
   CHECK_THROWS_WITH(file.read<std::string>("long_text"), Contains("declares 100 values of 1073741824 bytes"));
 }
 
+TEST_CASE("a small file is not decoded to very many values") {
+  const TemporaryFolder folder;
+  const auto path = folder.path() / "bomb.h5";
+  std::vector<float> values(std::size_t{5} << 20);
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i % 251);
+  {
+    const RawFile file(path);
+    const hid_t gzip = chunked(1 << 16);
+    H5Pset_deflate(gzip, 9);
+    REQUIRE(H5Dwrite(file.dataset("bomb", {values.size()}, H5T_IEEE_F32LE, gzip), H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL,
+                     H5P_DEFAULT, values.data()) >= 0);
+  }
+  CHECK_THROWS_WITH(Hdf5File::open(path).read<float>("bomb"),
+                    path.string() + joined(": dataset 'bomb': declares 20971520 bytes, more than the limit of 16777216 "
+                                           "for what a file of ",
+                                           std::filesystem::file_size(path), " bytes is decoded to"));
+}
+
 TEST_CASE("many rows that share one long string are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "shared.h5";
@@ -226,6 +244,7 @@ TEST_CASE("types that svnet does not read are named") {
                                                          {H5T_STD_B16LE, "bit field"},
                                                          {H5Tcreate(H5T_OPAQUE, 4), "opaque"},
                                                          {H5T_STD_REF_OBJ, "reference"},
+                                                         {H5T_UNIX_D32LE, "unknown type"},
                                                          {H5Tvlen_create(H5T_NATIVE_FLOAT), "variable-length sequence"},
                                                          {H5Tarray_create2(H5T_NATIVE_FLOAT, 1, &three), "array"},
                                                          {integer_of(2, 7), "integer of unusual layout"},
