@@ -113,6 +113,18 @@ TEST_CASE("parts, precisions and opsets of an ONNX export agree with the model")
   }
 }
 
+TEST_CASE("an ONNX export of a head that averages over the orientations of the image agrees with the model") {
+  const TemporaryFolder folder;
+  for (const auto encoding : {AngleEncoding::radians, AngleEncoding::harmonics}) {
+    CAPTURE(name_of(encoding));
+    Model model = small_model(encoding);
+    model.symmetries = 8;
+    const Agreement result = export_onnx(model, folder.path() / "head.onnx", {.part = ModelPart::head});
+    CHECK(result.poses == 20);
+    CHECK(result.largest_difference < 1e-6);
+  }
+}
+
 TEST_CASE("exports of parts that a model does not have are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.onnx";
@@ -128,6 +140,7 @@ TEST_CASE("exports of parts that a model does not have are refused") {
   symmetric.symmetries = 8;
   CHECK_THROWS_WITH(export_keras(symmetric, path, {}), Contains("averages over the orientations of the image"));
   CHECK_THROWS_WITH(export_onnx(small_model(), path, {.opset = 12}), Contains("ONNX opset 12 is not one of 13 to 17"));
+  CHECK_THROWS_WITH(export_onnx(small_model(), path, {.opset = 18}), Contains("ONNX opset 18 is not one of 13 to 17"));
   CHECK(files_in(folder.path()).empty());
 }
 
