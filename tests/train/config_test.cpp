@@ -150,6 +150,14 @@ TEST_CASE("every error of a key names file, line and key") {
         "c.yaml:5: dataset.held_out[2]: 'car' is listed twice");
 }
 
+TEST_CASE("a range of numbers is said by the ends that it has") {
+  CHECK(described(NumberRange{}, true) == "a whole number");
+  CHECK(described(NumberRange{.min = 2}, true) == "a whole number >= 2");
+  CHECK(described(NumberRange{.max = 0.5}, false) == "a number <= 0.5");
+  CHECK(described(NumberRange{.min = 0, .max = 1, .min_open = true, .max_open = true}, false) ==
+        "a number > 0 and < 1");
+}
+
 TEST_CASE("rules about several keys are checked after all keys are read") {
   CHECK(error_of("scores: {problems: 1}") == "c.yaml: dataset.root: required, name the folder of the images");
   CHECK(error_of("scores: {problems: 1}\ndataset: {root: ''}") ==
