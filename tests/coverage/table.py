@@ -28,6 +28,12 @@ def runs_of_lines(segments):
     return runs
 
 
+def compile_time_lines(path):
+    """The lines whose conditions the compiler decides: llvm-cov counts neither outcome of them."""
+    with open(path) as source:
+        return {number for number, line in enumerate(source, 1) if "if constexpr" in line}
+
+
 class Counts:
     """What ran of one file, which may be listed under several names, as ../src/a.cpp and src/a.cpp."""
 
@@ -38,7 +44,10 @@ class Counts:
     def add(self, file):
         for line, count in runs_of_lines(file["segments"]).items():
             self.runs[line] = max(self.runs.get(line, 0), count)
+        decided = compile_time_lines(file["filename"])
         for line, column, _, end, true, false, *_ in file["branches"]:
+            if line in decided:
+                continue
             self.outcomes[line, column, end, True] += true
             self.outcomes[line, column, end, False] += false
 

@@ -1,8 +1,13 @@
 #include "exports/exports.h"
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <fstream>
+#include <map>
+#include <protozero/pbf_reader.hpp>
+#include <protozero/pbf_writer.hpp>
 
+#include "io/onnx/onnx_fields.h"
 #include "io/onnx/onnx_graph.h"
 #include "io/onnx/onnx_reader.h"
 #include "small_model.h"
@@ -22,6 +27,40 @@ std::vector<std::string> files_in(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder)) names.push_back(entry.path().filename());
   std::ranges::sort(names);
   return names;
+}
+
+/// A message of ONNX with an unknown field in it and in each message that it has.
+std::string with_unknown_fields(const std::string& message, const std::string& kind = "model") {
+  using namespace io::onnx;
+  // The messages that a message has, by its field: what svnet reads of onnx.proto.
+  static const std::map<std::pair<std::string, protozero::pbf_tag_type>, std::string> kMessages{
+      {{"model", kGraph}, "graph"},        {{"model", kOpsetImport}, "opset"},
+      {{"model", kMetadata}, "entry"},     {{"graph", kNode}, "node"},
+      {{"graph", kInitializer}, "tensor"}, {{"graph", kInput}, "port"},
+      {{"graph", kOutput}, "port"},        {{"node", kAttribute}, "attribute"},
+      {{"port", kPortType}, "type"},       {{"type", kTensorType}, "tensor type"},
+      {{"tensor type", kShape}, "shape"},  {{"shape", kDimension}, "dimension"}};
+  std::string result;
+  protozero::pbf_writer to(result);
+  to.add_string(99, "unknown");
+  protozero::pbf_reader from(message);
+  while (from.next()) {
+    const auto tag = from.tag();
+    switch (from.wire_type()) {
+      case protozero::pbf_wire_type::varint:
+        to.add_uint64(tag, from.get_uint64());
+        break;
+      case protozero::pbf_wire_type::fixed32:
+        to.add_fixed32(tag, from.get_fixed32());
+        break;
+      default: {
+        const std::string bytes = from.get_bytes();
+        const auto found = kMessages.find({kind, tag});
+        to.add_bytes(tag, found == kMessages.end() ? bytes : with_unknown_fields(bytes, found->second));
+      }
+    }
+  }
+  return result;
 }
 
 }  // namespace
@@ -74,6 +113,18 @@ TEST_CASE("parts, precisions and opsets of an ONNX export agree with the model")
   }
 }
 
+TEST_CASE("an ONNX export of a head that averages over the orientations of the image agrees with the model") {
+  const TemporaryFolder folder;
+  for (const auto encoding : {AngleEncoding::radians, AngleEncoding::harmonics}) {
+    CAPTURE(name_of(encoding));
+    Model model = small_model(encoding);
+    model.symmetries = 8;
+    const Agreement result = export_onnx(model, folder.path() / "head.onnx", {.part = ModelPart::head});
+    CHECK(result.poses == 20);
+    CHECK(result.largest_difference < 1e-6);
+  }
+}
+
 TEST_CASE("exports of parts that a model does not have are refused") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.onnx";
@@ -89,6 +140,7 @@ TEST_CASE("exports of parts that a model does not have are refused") {
   symmetric.symmetries = 8;
   CHECK_THROWS_WITH(export_keras(symmetric, path, {}), Contains("averages over the orientations of the image"));
   CHECK_THROWS_WITH(export_onnx(small_model(), path, {.opset = 12}), Contains("ONNX opset 12 is not one of 13 to 17"));
+  CHECK_THROWS_WITH(export_onnx(small_model(), path, {.opset = 18}), Contains("ONNX opset 18 is not one of 13 to 17"));
   CHECK(files_in(folder.path()).empty());
 }
 
@@ -170,4 +222,41 @@ TEST_CASE(
 TEST_CASE("bytes that are not an ONNX model are refused") {
   CHECK_THROWS_WITH(io::parse_onnx("a.onnx", "no model"), Contains("a.onnx: is not an ONNX model"));
   CHECK_THROWS_WITH(io::parse_onnx("a.onnx", ""), Contains("it has no graph"));
+  io::OnnxGraph graph;
+  const auto read = [&] { return io::parse_onnx("a.onnx", io::onnx_bytes("a.onnx", graph, 13)); };
+  CHECK_THROWS_WITH(read(), "a.onnx: is not an ONNX model: it has no graph");
+  graph.add("Relu", "y", {"x"});
+  CHECK_THROWS_WITH(read(), "a.onnx: is not an ONNX model: it has no graph");
+  graph.outputs.push_back({"y", {}});
+  CHECK(read().nodes.size() == 1);
+}
+
+TEST_CASE("an ONNX graph is read as it was written, and what svnet does not write is skipped") {
+  io::OnnxGraph graph;
+  const std::array<float, 2> floats{1, 2};
+  graph.inputs.push_back({"x", {"N", Index{2}}});
+  graph.outputs.push_back({"y", {"N", Index{2}}});
+  graph.add("Op", "y", {"x", graph.add_constant("c", {2}, floats)},
+            {{"real", 0.5f}, {"whole", std::int64_t{-3}}, {"several", std::vector<std::int64_t>{1, -2}}});
+  graph.metadata["key"] = "value";
+  const std::string written = io::onnx_bytes("a.onnx", graph, 14);
+  // Every message gets a field of a number that no message of ONNX has.
+  const auto check_read = [&](const std::string& bytes) {
+    const io::OnnxGraph back = io::parse_onnx("a.onnx", bytes);
+    REQUIRE(back.nodes.size() == 1);
+    CHECK(back.nodes[0].op == "Op");
+    CHECK(back.nodes[0].name == "y");
+    CHECK(back.nodes[0].inputs == std::vector<std::string>{"x", "c"});
+    CHECK(back.nodes[0].attributes == graph.nodes[0].attributes);
+    REQUIRE(back.constants.size() == 1);
+    CHECK(back.constants[0].name == "c");
+    CHECK(back.constants[0].shape == std::vector<Index>{2});
+    CHECK(back.constants[0].bytes == graph.constants[0].bytes);
+    REQUIRE(back.inputs.size() == 1);
+    CHECK(back.inputs[0].name == "x");
+    CHECK(back.inputs[0].shape == graph.inputs[0].shape);
+    CHECK(back.metadata == graph.metadata);
+  };
+  check_read(written);
+  check_read(with_unknown_fields(written));
 }

@@ -1,6 +1,7 @@
 // Each layer of each backbone in ONNX, and layers that no backbone has.
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <functional>
 
 #include "io/onnx/layer_nodes.h"
 #include "io/onnx/onnx_run.h"
@@ -104,4 +105,78 @@ TEST_CASE("layers that are read as rows and as images are the same in ONNX") {
   const NodeId softmax = g.add("softmax", ActivationLayer{Activation::softmax}, {classes});
   g.add("all", ConcatLayer{}, {softmax, beside});
   CHECK(difference(g) < 1e-5);
+}
+
+TEST_CASE("zeros around an image are the same in ONNX, whatever layer reads them") {
+  const auto with = [](const std::function<NodeId(Graph&, NodeId)>& add) {
+    Graph g;
+    const NodeId image = g.input("image", {5, 6, 2});
+    const NodeId padded = g.add("pad", ZeroPadding2dLayer{Padding::of(1, 2, 0, 3)}, {image});
+    add(g, padded);
+    return difference(g);
+  };
+  const Conv2dLayer conv{.filters = 3, .kh = 3, .kw = 3, .stride_h = 2, .stride_w = 2, .padding = Padding::same()};
+  CHECK(with([](Graph&, NodeId padded) { return padded; }) < 1e-6);
+  CHECK(with([](Graph& g, NodeId padded) { return g.add("flat", FlattenLayer{}, {padded}); }) < 1e-6);
+  CHECK(with([](Graph& g, NodeId padded) { return g.add("shaped", ReshapeLayer{{8 * 9 * 2}}, {padded}); }) < 1e-6);
+  CHECK(with([](Graph& g, NodeId padded) {
+          return g.add("dense", DenseLayer{.units = 4}, {g.add("flat", FlattenLayer{}, {padded})});
+        }) < 1e-5);
+  for (const PoolKind kind : {PoolKind::max, PoolKind::average}) {
+    CHECK(with([&](Graph& g, NodeId padded) {
+            const Pool2dLayer pool{.kind = kind, .window = {.kh = 3, .kw = 3, .stride_h = 2, .stride_w = 2}};
+            return g.add("conv", conv, {g.add("pool", pool, {padded})});
+          }) < 1e-5);
+    CHECK(with([&](Graph& g, NodeId padded) { return g.add("pool", GlobalPool2dLayer{.kind = kind}, {padded}); }) <
+          1e-5);
+  }
+  CHECK(with([&](Graph& g, NodeId padded) {
+          return g.add("conv", conv, {g.add("sigmoid", ActivationLayer{Activation::sigmoid}, {padded})});
+        }) < 1e-5);
+  CHECK(with([&](Graph& g, NodeId padded) {
+          const NodeId again = g.add("again", ZeroPadding2dLayer{Padding::of(1, 0, 1, 0)}, {padded});
+          return g.add("conv", conv, {again});
+        }) < 1e-5);
+  CHECK(with([](Graph& g, NodeId padded) { return g.add("sum", AddLayer{}, {padded, padded}); }) < 1e-6);
+  CHECK(with([](Graph& g, NodeId padded) {
+          const NodeId both = g.add("both", ConcatLayer{}, {padded, padded});
+          return g.add("norm", BatchNormLayer{}, {both});
+        }) < 1e-5);
+}
+
+TEST_CASE("layers of features are the same in ONNX") {
+  Graph g;
+  const NodeId x = g.input("x", {6});
+  const NodeId same = g.add("same", ReshapeLayer{{6}}, {x});
+  const NodeId hidden = g.add("hidden", DenseLayer{.units = 6, .bias = false}, {same});
+  const NodeId normed = g.add("norm", BatchNormLayer{}, {g.add("relu", ActivationLayer{Activation::relu}, {hidden})});
+  const NodeId sum = g.add("sum", AddLayer{}, {normed, x, hidden});
+  const NodeId product = g.add("product", MultiplyLayer{}, {sum, x});
+  const NodeId beside = g.add("beside", ConcatLayer{}, {product, x});
+  const NodeId sigmoid = g.add("sigmoid", ActivationLayer{Activation::sigmoid}, {beside});
+  g.add("out", DropoutLayer{0.5}, {sigmoid});
+  CHECK(difference(g) < 1e-5);
+}
+
+TEST_CASE("a factor per channel is the same in ONNX, whatever its shape and its place") {
+  for (const Shape& shape : {Shape{3}, Shape{1, 1, 3}})
+    for (const bool first : {false, true}) {
+      CAPTURE(shape.size(), first);
+      Graph g;
+      const NodeId image = g.input("image", {4, 5, 3});
+      const NodeId mean = g.add("mean", GlobalPool2dLayer{}, {image});
+      NodeId factor = g.add("factor", DenseLayer{.units = 3}, {mean});
+      if (shape.size() == 3) factor = g.add("shaped", ReshapeLayer{shape}, {factor});
+      const NodeId scaled =
+          g.add("scaled", MultiplyLayer{}, first ? std::vector{factor, image} : std::vector{image, factor});
+      g.add("conv", Conv2dLayer{.filters = 2, .kh = 3, .kw = 3, .stride_h = 2, .padding = Padding::same()}, {scaled});
+      CHECK(difference(g) < 1e-5);
+    }
+}
+
+TEST_CASE("a norm of rows that are an image is refused with its name") {
+  Graph g;
+  const NodeId rows = g.add("rows", DenseLayer{.units = 12}, {g.input("x", {4})});
+  g.add("norm", BatchNormLayer{}, {g.add("image", ReshapeLayer{{2, 2, 3}}, {rows})});
+  CHECK_THROWS_WITH(difference(g), "[onnx] norm: a norm of 2x2x3 cannot be exported");
 }

@@ -1,5 +1,6 @@
 #include "io/files/atomic_file.h"
 
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <csignal>
 #include <fstream>
@@ -150,11 +151,13 @@ TEST_CASE("the temporary file of a killed process is removed by the next one tha
     return folder.write(".svnet-" + name + "-" + std::to_string(pid) + rest, "half");
   };
   const fs::path stale = temporary("scores.h5", dead, "-7.tmp");
-  const std::vector<fs::path> others{
-      temporary("scores.h5", ::getpid(), "-7000.tmp"),  // of a running process
-      temporary("scores.h5.bak", dead, "-7.tmp"),       // of another file
-      temporary("other.h5", dead, "-7.tmp"),           temporary("scores.h5", dead, "-7.tmp.bak"),  // another name
-      temporary("scores.h5-1", dead, "-7.tmp"),        temporary("scores.h5", dead, "-7")};
+  const std::vector<fs::path> others{temporary("scores.h5", ::getpid(), "-7000.tmp"),  // of a running process
+                                     temporary("scores.h5.bak", dead, "-7.tmp"),       // of another file
+                                     temporary("other.h5", dead, "-7.tmp"),
+                                     temporary("scores.h5", dead, "-7.tmp.bak"),  // another name
+                                     temporary("scores.h5-1", dead, "-7.tmp"),
+                                     temporary("scores.h5", dead, "-7"),
+                                     folder.write(".svnet-scores.h5-mine.tmp", "mine")};
   write_atomically(folder.path() / "scores.h5", "whole");
   CHECK_FALSE(fs::exists(stale));
   for (const fs::path& other : others) {
@@ -162,6 +165,26 @@ TEST_CASE("the temporary file of a killed process is removed by the next one tha
     CHECK(fs::exists(other));
   }
   CHECK(entries(folder.path()) == others.size() + 1);
+}
+
+TEST_CASE("a temporary file does not replace one of the same name") {
+  const TemporaryFolder folder;
+  // Names that the next temporary files of this process would have.
+  std::vector<fs::path> taken;
+  for (int i = 0; i < 2000; ++i)
+    taken.push_back(folder.write(joined(".svnet-a-", ::getpid(), "-", i, ".tmp"), "taken"));
+  write_atomically(folder.path() / "a", "new");
+  CHECK(file_contents(folder.path() / "a") == "new");
+  CHECK(std::ranges::all_of(taken, [](const fs::path& path) { return file_contents(path) == "taken"; }));
+  CHECK(entries(folder.path()) == taken.size() + 1);
+}
+
+TEST_CASE("only an existing name can be the standard output") {
+  const TemporaryFolder folder;
+  CHECK_FALSE(is_standard_output(""));
+  CHECK_FALSE(is_standard_output(folder.path() / "none"));
+  CHECK_FALSE(is_standard_output(folder.write("file", "")));
+  CHECK(is_standard_output("/dev/stdout"));
 }
 
 TEST_CASE("names as long as file systems allow can be written") {

@@ -1,12 +1,16 @@
 #include "io/events/event_file.h"
 
 #include <catch2/catch.hpp>
+#include <csignal>
 #include <cstring>
+#include <functional>
 #include <protozero/pbf_reader.hpp>
 #include <vector>
 
-#include "base/error.h"
+#include <sys/resource.h>
+
 #include "base/crc32c.h"
+#include "base/error.h"
 #include "io/files/whole_file.h"
 #include "temporary_folder.h"
 
@@ -104,6 +108,34 @@ TEST_CASE("scalars and images stand in records with checksums") {
   CHECK(events[2].step == 2);
   CHECK(events[2].value == 0.25f);
   CHECK_THAT(events[3].image, Catch::StartsWith("\x89PNG"));
+}
+
+TEST_CASE("events that the disk does not take are an error that names the file") {
+  // A limit on file sizes fails like a full disk.
+  const TemporaryFolder folder;
+  EventFile scalars(folder.path(), "scalars"), images(folder.path(), "images");
+  Image noise{100, 100, std::vector<std::uint8_t>(3 * 100 * 100)};
+  unsigned state = 1;
+  for (auto& byte : noise.rgb) byte = static_cast<std::uint8_t>((state = state * 1664525u + 1013904223u) >> 24);
+  rlimit before;
+  REQUIRE(::getrlimit(RLIMIT_FSIZE, &before) == 0);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  const rlimit small{50, before.rlim_max};
+  REQUIRE(::setrlimit(RLIMIT_FSIZE, &small) == 0);
+  std::vector<std::string> messages;
+  const auto add = [&](const std::function<void()>& write) {
+    try {
+      write();
+    } catch (const Error& error) {
+      messages.emplace_back(error.what());
+    }
+  };
+  add([&] { scalars.add_scalar("loss", 1, 0.5); });
+  add([&] { images.add_image("noise", 1, noise); });
+  ::setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
+  CHECK(messages == std::vector<std::string>{scalars.path().string() + ": cannot be written: File too large",
+                                             images.path().string() + ": cannot be written: File too large"});
 }
 
 TEST_CASE("a new file replaces those of the same writer, and no others") {

@@ -97,6 +97,20 @@ TEST_CASE("if two processes make the same folder, the first to finish gets it") 
   CHECK(entries(place.path()) == 1);
 }
 
+TEST_CASE("if a file gets the name of a fresh folder meanwhile, it stays") {
+  const TemporaryFolder place;
+  const fs::path path = place.path() / "a";
+  {
+    FreshFolder folder(path);
+    write(folder.path() / "file", "new");
+    write(path, "other");
+    CHECK_THROWS_WITH(folder.keep(),
+                      path.string() + ": has come to exist meanwhile; remove it or choose another folder");
+  }
+  CHECK(file_contents(path) == "other");
+  CHECK(entries(place.path()) == 1);
+}
+
 TEST_CASE("a fresh folder may replace an empty one, and the target of a link") {
   const TemporaryFolder place;
   for (const char* name : {"there", "elsewhere"}) fs::create_directory(place.path() / name);
@@ -122,6 +136,7 @@ TEST_CASE("a fresh folder that could not get its final name is refused at once")
   CHECK(refusal("") == "'': not the name of a folder; give one that can be made");
   CHECK(refusal(".") == ".: is the folder that this runs in; choose another one");
   CHECK(refusal("full/file/x") == "full/file/x: cannot be made: Not a directory");
+  CHECK(refusal("/proc/svnet") == "/proc/svnet: cannot be made: No such file or directory");
   const std::string long_name(300, 'x');
   CHECK(refusal(long_name) == long_name + ": cannot be made: File name too long");
   {

@@ -6,6 +6,9 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "base/error.h"
+#include "frame/frame_inputs.h"
+#include "frame/next_inputs.h"
 #include "frame/top_frame.h"
 #include "io/models/checkpoint.h"
 #include "io/models/graph_json.h"
@@ -60,6 +63,16 @@ Model turned_model(frame::FrameChoice choice, frame::DepthChoice depth) {
   model.head = linear_head(frame::input_count(frame_spec(model)));
   model.head_parameters = initial_parameters(model.head, 4);
   return model;
+}
+
+/// A head of dense layers that takes inputs of the given shapes and gives `outputs` scores.
+Graph head_of(const std::vector<Shape>& inputs, Index outputs = 1) {
+  Graph head;
+  std::vector<NodeId> ids;
+  for (const Shape& shape : inputs) ids.push_back(head.input(joined("input", ids.size()), shape));
+  const NodeId all = ids.size() == 1 ? ids[0] : head.add("all", ConcatLayer{}, ids);
+  head.add("score", DenseLayer{.units = outputs}, {all});
+  return head;
 }
 
 /// Writes the model of `from` to `to` with a description that `change` has changed.
@@ -159,6 +172,90 @@ TEST_CASE("a damaged model in the frame axis is refused") {
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string()) && Catch::Contains("backbone"));
 }
 
+TEST_CASE("a model whose image has no usable size, or another order of channels, is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors", bad = temporary.path() / "bad.safetensors";
+  write_model(path, small_model());
+  const auto read_with = [&](const char* key, const nlohmann::json& value) {
+    write_changed(path, bad, [&](nlohmann::json& d) { d["preprocessing"][key] = value; });
+    static_cast<void>(read_model(bad));
+  };
+  CHECK_THROWS_WITH(read_with("height", 0), bad.string() + ": input size 0x96 is out of range");
+  CHECK_THROWS_WITH(read_with("width", -1), bad.string() + ": input size 96x-1 is out of range");
+  CHECK_THROWS_WITH(read_with("height", 8193), bad.string() + ": input size 8193x96 is out of range");
+  CHECK_THROWS_WITH(read_with("width", 8193), bad.string() + ": input size 96x8193 is out of range");
+  CHECK_THROWS_WITH(read_with("channels", "BGR"), bad.string() + ": channels are \"BGR\", expected RGB");
+  CHECK_THROWS_WITH(read_with("pixels", "caffeine"),
+                    Catch::StartsWith(bad.string() + ": ") && Catch::Contains("caffe"));
+}
+
+TEST_CASE("a model whose parts do not fit each other is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  const auto read_with_head = [&](Model model, const Graph& head) {
+    model.head = head;
+    model.head_parameters = initial_parameters(model.head, 4);
+    write_model(path, model);
+    static_cast<void>(read_model(path));
+  };
+  const Model camera = small_model();
+  const Index features = element_count(camera.backbone_graph.node(camera.backbone_graph.find("avg_pool")).shape);
+  const std::string not_camera = path.string() + joined(": the head does not take the backbone's ", features,
+                                                        " features and the angles, or gives more than one score");
+  CHECK_NOTHROW(read_with_head(camera, head_of({{features}, {3}})));
+  CHECK_THROWS_WITH(read_with_head(camera, head_of({{features}})), not_camera);
+  CHECK_THROWS_WITH(read_with_head(camera, head_of({{features + 1}, {3}})), not_camera);
+  CHECK_THROWS_WITH(read_with_head(camera, head_of({{features}, {4}})), not_camera);
+  CHECK_THROWS_WITH(read_with_head(camera, head_of({{features}, {3}}, 2)), not_camera);
+  Graph blind;
+  const NodeId image_features = blind.input("features", {features});
+  blind.input("angles", {3});
+  blind.add("score", DenseLayer{.units = 1}, {image_features});
+  CHECK_THROWS_WITH(read_with_head(camera, blind),
+                    path.string() + ": the score of the head does not depend on its input 'angles'");
+
+  const Model axis = axis_model(frame::DepthChoice::none);
+  const Index inputs = frame::input_count(frame_spec(axis));
+  const std::string not_axis = path.string() + joined(": the head does not take the ", inputs,
+                                                      " inputs of a camera pose, or gives more than one score");
+  CHECK_NOTHROW(read_with_head(axis, head_of({{inputs}})));
+  CHECK_THROWS_WITH(read_with_head(axis, head_of({{inputs}, {1}})), not_axis);
+  CHECK_THROWS_WITH(read_with_head(axis, head_of({{inputs}}, 2)), not_axis);
+
+  Model two_images = camera;
+  Graph& backbone = two_images.backbone_graph;
+  const NodeId second = backbone.input("second", {features});
+  backbone.add("sum", AddLayer{}, {backbone.find("avg_pool"), second});
+  two_images.backbone_output = "sum";
+  write_model(path, two_images);
+  CHECK_THROWS_WITH(read_model(path),
+                    path.string() + ": the backbone does not take images of 96x96, as preprocessing makes them");
+}
+
+TEST_CASE("a model keeps the head of the next view, and one that does not fit is refused") {
+  const TemporaryFolder temporary;
+  const auto path = temporary.path() / "model.safetensors";
+  Model model = axis_model(frame::DepthChoice::none);
+  write_model(path, model);
+  CHECK(read_model(path).next_head.nodes().empty());
+  const auto write_with = [&](const Graph& head) {
+    model.next_head = head;
+    model.next_parameters = initial_parameters(head, 5);
+    write_model(path, model);
+  };
+  const Index inputs = frame::next_input_count(frame_spec(model));
+  write_with(linear_head(inputs));
+  const Model back = read_model(path);
+  for (const auto& [name, value] : model.next_parameters.items()) CHECK(equal(back.next_parameters.at(name), value));
+  const std::string refusal =
+      path.string() + joined(": the head of the next view does not take the ", inputs,
+                             " inputs of a camera pose and a taken view, or gives more than one score");
+  for (const Graph& head : {head_of({{inputs + 1}}), head_of({{inputs}, {1}}), head_of({{inputs}}, 2)}) {
+    write_with(head);
+    CHECK_THROWS_WITH(read_model(path), refusal);
+  }
+}
+
 TEST_CASE("a model says what it was trained on") {
   const TemporaryFolder folder;
   const auto path = folder.path() / "model.safetensors", bad = folder.path() / "bad.safetensors";
@@ -214,10 +311,25 @@ TEST_CASE("a model says what shapes it has seen, and damaged ones are refused") 
   CHECK(back.gain.residuals == model.gain.residuals);
   write_changed(path, bad, [](auto& d) { d["frame"]["gain"]["residuals"] = {0.1, -0.1}; });
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: the residuals in gain are not ascending quantiles");
+  write_changed(path, bad, [](auto& d) { d["frame"]["gain"]["residuals"] = {0.1}; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: the residuals in gain are not ascending quantiles");
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["deviation"] = {1, 2}; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 3 means and 2 deviations, expected 3");
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["mean"] = nlohmann::json::array(); });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 0 means and 3 deviations, expected 3");
+  write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["deviation"][1] = -0.5; });
+  CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: a deviation or the limit in seen is negative");
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["mean"] = {1, 2}; });
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: seen has 2 means and 3 deviations, expected 3");
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"]["limit"] = -1; });
   CHECK_THROWS_WITH(read_model(bad), bad.string() + ": frame: a deviation or the limit in seen is negative");
+  // A number that is not finite cannot be said in JSON.
+  const SafetensorsFile good(path);
+  auto metadata = good.metadata();
+  std::string& description = metadata.at("svnet");
+  description.replace(description.find("2.5"), 3, "1e999");
+  write_safetensors(bad, good.tensors(), metadata);
+  CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": ") && Catch::Contains("1e999"));
   write_changed(path, bad, [](auto& d) { d["frame"]["seen"].erase("deviation"); });
   CHECK_THROWS_WITH(read_model(bad), Catch::StartsWith(bad.string() + ": "));
 }
@@ -381,6 +493,30 @@ TEST_CASE("a wrong graph is refused with its node and attribute") {
   broken = json;
   broken[3]["inputs"] = {"nobody"};
   CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::Contains("f: node 3 'mlp1_1_bn': [graph] no layer 'nobody'"));
+  // A node without a usable name is named by its number alone.
+  broken = json;
+  broken[2].erase("name");
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::StartsWith("f: node 2: ") && Catch::Contains("name"));
+  broken[2]["name"] = 7;
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::StartsWith("f: node 2: "));
+  broken[2] = "mlp1_1_fc";
+  CHECK_THROWS_WITH(graph_from_json(broken, "f"), Catch::StartsWith("f: node 2: "));
+  for (const auto& no_graph : {nlohmann::json::array(), nlohmann::json::object(), nlohmann::json("graph")})
+    CHECK_THROWS_WITH(graph_from_json(no_graph, "f"), "f: the graph is not a list of nodes");
+}
+
+TEST_CASE("padding in JSON is a name or four sizes") {
+  Graph g;
+  g.add("pad", ZeroPadding2dLayer{Padding::of(0, 1, 2, 3)}, {g.input("image", {4, 4, 1})});
+  auto json = graph_to_json(g);
+  CHECK(json[1]["padding"] == nlohmann::json{0, 1, 2, 3});
+  const std::string start = "f: node 1 'pad': attribute 'padding': ";
+  json[1]["padding"] = name_of(Padding::Kind::explicit_);
+  CHECK_THROWS_WITH(graph_from_json(json, "f"), start + "explicit padding is a list of four numbers");
+  json[1]["padding"] = "sam";
+  CHECK_THROWS_WITH(graph_from_json(json, "f"), Catch::StartsWith(start) && Catch::Contains("did you mean 'same'?"));
+  json[1]["padding"] = {0, 1, 2};
+  CHECK_THROWS_WITH(graph_from_json(json, "f"), Catch::StartsWith(start));
 }
 
 TEST_CASE("a file that is not a model, or has other tensors, is refused") {

@@ -108,6 +108,20 @@ TEST_CASE("every error of a key names file, line and key") {
         "c.yaml:3: training.learning_rate: '.nan' is wrong, expected a number > 0");
   CHECK(at_line_3("training: {learning_rate: inf}") ==
         "c.yaml:3: training.learning_rate: inf is out of range, expected a number > 0");
+  CHECK(at_line_3("training: {learning_rate: '0.1'}") ==
+        "c.yaml:3: training.learning_rate: '0.1' in quotes is text, expected a number > 0");
+  CHECK(at_line_3("training: {learning_rate: [0.1]}") ==
+        "c.yaml:3: training.learning_rate: a list is given, expected a number > 0");
+  CHECK(at_line_3("training: {step_factor: 1.5}") ==
+        "c.yaml:3: training.step_factor: 1.5 is out of range, expected a number > 0 and <= 1");
+  CHECK(at_line_3("seed: 1e300") == "c.yaml:3: seed: '1e300' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("seed: 2e15.5") == "c.yaml:3: seed: '2e15.5' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("seed: 9007199254740994.0") ==
+        "c.yaml:3: seed: '9007199254740994.0' is wrong, expected a whole number >= 0");
+  CHECK(at_line_3("evaluation: {views: 9}") ==
+        "c.yaml:3: evaluation.views: 9 is out of range, expected a whole number >= 1 and <= 8");
+  CHECK(at_line_3("colours: {red: 1}") ==
+        "c.yaml:3: colours: unknown key; known: preset, seed, dataset, weights, scores, sv_net, training, evaluation");
   CHECK(at_line_3("sv_net: {dropout: 1}") ==
         "c.yaml:3: sv_net.dropout: 1 is out of range, expected a number >= 0 and < 1");
   CHECK(at_line_3("training: {optimizer: adm}") ==
@@ -121,14 +135,27 @@ TEST_CASE("every error of a key names file, line and key") {
   CHECK(at_line_3("evaluation:\n  pipelines: [xception_ward, ward]") ==
         "c.yaml:4: evaluation.pipelines[1]: 'ward' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: "
         "ward, average, complete, single, kmeans");
+  CHECK(at_line_3("evaluation: {pipelines: [_ward]}") ==
+        "c.yaml:3: evaluation.pipelines[0]: '_ward' is not BACKBONE_CLUSTERING, as in mobilenet_v2_ward; clusterings: "
+        "ward, average, complete, single, kmeans");
   CHECK(at_line_3("evaluation: {pipelines: [xception_wrad]}") ==
         "c.yaml:3: evaluation.pipelines[0]: xception_wrad: unknown value 'wrad', expected one of ward, average, "
         "complete, single, "
         "kmeans; did you mean 'ward'?");
   CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: car") ==
         "c.yaml:4: dataset.held_out: 'car' is wrong, expected a list, as in [first, second]");
+  CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: [car, '']") ==
+        "c.yaml:4: dataset.held_out[1]: the name is empty");
   CHECK(error_of("scores: {problems: 1}\ndataset:\n  root: d\n  held_out: [car,\n    dog, car]") ==
         "c.yaml:5: dataset.held_out[2]: 'car' is listed twice");
+}
+
+TEST_CASE("a range of numbers is said by the ends that it has") {
+  CHECK(described(NumberRange{}, true) == "a whole number");
+  CHECK(described(NumberRange{.min = 2}, true) == "a whole number >= 2");
+  CHECK(described(NumberRange{.max = 0.5}, false) == "a number <= 0.5");
+  CHECK(described(NumberRange{.min = 0, .max = 1, .min_open = true, .max_open = true}, false) ==
+        "a number > 0 and < 1");
 }
 
 TEST_CASE("rules about several keys are checked after all keys are read") {
@@ -143,6 +170,12 @@ TEST_CASE("rules about several keys are checked after all keys are read") {
   CHECK(error_of("dataset: {root: d}\nscores:\n  problems: 1\n  min_objects: 4\n  max_objects: 3") ==
         "c.yaml:5: scores.max_objects: 3 is less than scores.min_objects 4");
   CHECK(parse("dataset: {root: d}", {"scores.target_error=0.01"}).scores.target_error == 0.01);
+  const std::string next_view =
+      "sv_net.next_view: models of the frame camera do not learn which view to take next; set sv_net.frame to another "
+      "one, such as axis";
+  CHECK(error_of(kBase + "sv_net: {next_view: ridge}") == "c.yaml:3: " + next_view);
+  CHECK(error_of_override("sv_net.next_view=ridge") == "--set " + next_view);
+  CHECK(parse(kBase, {"sv_net.next_view=ridge", "sv_net.frame=turned"}).sv_net.next_view == NextViewChoice::ridge);
 }
 
 TEST_CASE("wrong YAML is refused with its line") {
@@ -150,6 +183,7 @@ TEST_CASE("wrong YAML is refused with its line") {
   CHECK(error_of("seed: 1\n\tdataset: 3\n").starts_with("c.yaml:2: "));
   CHECK(error_of("seed: 1\n'open") == "c.yaml:2: illegal EOF in scalar (column 6)");
   CHECK(error_of("seed: 1\nweights: {folder: \"open}\n") == "c.yaml:2: illegal EOF in scalar (column 25)");
+  CHECK(error_of("seed: 1\n\"open\\").starts_with("c.yaml:2: "));
   CHECK(error_of("seed: 1\ndataset: [car\n") == "c.yaml:2: end of sequence flow not found (column 1)");
   CHECK(error_of("") == "c.yaml: dataset.root: required, name the folder of the images");
   CHECK(error_of("- a\n") == "c.yaml:1: expected lines of the form 'key: value'");
@@ -186,6 +220,8 @@ TEST_CASE("overrides are applied in order and their errors say --set") {
   CHECK(error_of_override("dataset.held_out=[car") ==
         "--set dataset.held_out: end of sequence flow not found (column 1)");
   CHECK(error_of_override("dataset.held_out=[a, a]") == "--set dataset.held_out[1]: 'a' is listed twice");
+  CHECK(error_of_override("dataset.root=a\xc2\xa0"
+                          "b") == "--set dataset.root: a no-break space (U+00A0) (column 2); YAML takes spaces only");
   CHECK(error_of_override("training.epochs") == "--set training.epochs: expected key=value");
   CHECK(error_of_override("=3") == "--set =3: expected key=value");
 }
@@ -210,11 +246,12 @@ TEST_CASE("the resolved configuration reads back equal, whatever its values") {
   const Config c = parse(
       kBase, {"dataset.root='/data/a b: \"c\" #1'", "dataset.held_out=['true', '12', 'null', '- x', \"a\\tb\", 'ü']",
               "training.learning_rate=0.1", "training.momentum=0.30000000000000004", "scores.singletons=skip",
-              "scores.layer='~'", "seed=9223372036854775807"});
+              "scores.layer='~'", "seed=9223372036854775807", "weights.folder='/a\\b\x7f'"});
   const std::string yaml = to_yaml(c);
   const Config again = parse_config(yaml, "resolved", "/elsewhere");
   CHECK(to_yaml(again) == yaml);
   CHECK(again.dataset.root == c.dataset.root);
+  CHECK(again.weights.folder == "/a\\b\x7f");
   CHECK(again.dataset.held_out == std::vector<std::string>{"true", "12", "null", "- x", "a\tb", "ü"});
   CHECK(again.training.momentum == 0.30000000000000004);
   CHECK(again.scores.layer == "~");
@@ -239,6 +276,21 @@ TEST_CASE("the configuration of a run has relative paths to what lies near its f
   std::filesystem::create_symlink("/usr", folder.path() / "link");
   CHECK_THAT(written(folder.path() / "link"), Catch::Contains("root: " + (folder.path() / "link").string() + "\n"));
   CHECK(parse_config(written(folder.path() / "data"), "config.yaml", run).dataset.root == folder.path() / "data");
+  // A folder right below the root has all of the disk within two steps.
+  c.dataset.root = "/elsewhere/data";
+  CHECK_THAT(to_yaml(c, "/nowhere/run"), Catch::Contains("root: /elsewhere/data\n"));
+  CHECK_THAT(to_yaml(c, "/nowhere"), Catch::Contains("root: ../elsewhere/data\n"));
+  // A folder that is not given stays so.
+  CHECK_THAT(written(run), Catch::Contains("weights:\n  folder: \"\"\n"));
+  CHECK_THAT(documented_yaml(c, run), Catch::Contains("  folder: \"\"\n"));
+  // A relative path to nothing is no path from the run's folder.
+  CHECK_THAT(written("missing/data"), Catch::Contains("root: missing/data\n"));
+}
+
+TEST_CASE("a key is found by its name") {
+  Config c = parse(kBase);
+  CHECK(bound_key(c, "scores.problems").write({}) == "10");
+  CHECK_THROWS_WITH(bound_key(c, "scores.problem"), "[config] there is no key 'scores.problem'");
 }
 
 TEST_CASE("the evaluation uses the pipeline of the scores if none is named") {
@@ -394,9 +446,38 @@ TEST_CASE("a tab or a no-break space is named, with its place") {
         "c.yaml:2: a no-break space (U+00A0) (column 1); YAML takes spaces only");
   // Where they do no harm: in quotes, in comments, in brackets, on empty lines.
   const Config c = parse(
-      "scores: {problems: 1} #\xc2\xa0\ttext\n\t\n\t# comment\ndataset:\n"
-      "  root: 'a\xc2\xa0\tb'\n  held_out: [car,\n\tdog]\n");
+      "scores: {problems: 1} #\xc2\xa0\ttext\n\t\n\t# comment\n\t\r\ndataset:\n"
+      "  root: 'a\xc2\xa0\tb'\n  held_out: [car,\n\tdog]\n\t");
   CHECK(c.dataset.held_out == std::vector<std::string>{"car", "dog"});
+}
+
+TEST_CASE("a no-break space is found after everything that may look like a quote or a comment, and not in them") {
+  // The blank of a list's item that follows `before`, which is in the same list.
+  const auto error_after = [](const std::string& before) {
+    return error_of(kBase + "evaluation: {selectors: [" + before +
+                    ", a\xc2\xa0"
+                    "b]}\n");
+  };
+  for (const std::string before : {"it's", "a\"b", "a#b", "'a'", "\"a\"", "\"a\\\"b\"", "'it''s'", "\"a\\\\\""}) {
+    INFO(before);
+    CHECK_THAT(error_after(before), Catch::StartsWith("c.yaml:3: a no-break space (U+00A0) (column "));
+  }
+  CHECK(error_of(kBase + "sv_net: {layer: a}\xc2\xa0\n") ==
+        "c.yaml:3: a no-break space (U+00A0) (column 19); YAML takes spaces only");
+  CHECK(error_of(kBase + "sv_net:\n  layer: a]\n\tbackbone: b\n") ==
+        "c.yaml:5: a tab in the indentation (column 1); YAML takes spaces only");
+  const auto layer = [](const std::string& quoted) {
+    return parse(kBase + "sv_net: {\"layer\":" + quoted + "}\n").sv_net.layer;
+  };
+  CHECK(layer(" 'a\xc2\xa0"
+              "b'") ==
+        "a\xc2\xa0"
+        "b");
+  CHECK(layer(" \"a\\\"\xc2\xa0\"") == "a\"\xc2\xa0");
+  CHECK(parse(kBase + "evaluation: {selectors: ['\xc2\xa0','\xe3\x80\x80']}\n").evaluation.selectors.size() == 2);
+  // A text in quotes may go on in the next line, after tabs too.
+  CHECK(parse(kBase + "sv_net:\n  layer: \"a\n\tb\"\n").sv_net.layer == "a b");
+  CHECK(parse(kBase + "sv_net:\n  layer: \"a\\\n\tb\"\n").sv_net.layer == "ab");
 }
 
 TEST_CASE("a preset sets other keys first, wherever it stands, and keys that are given come after it") {

@@ -48,7 +48,7 @@ constexpr Signature kText[] = {
 /// By the name of the first member, which is in the archive's first bytes.
 std::string_view meaning_of_zip(std::string_view bytes) {
   constexpr std::size_t kHeader = 30;
-  const auto byte = [&](std::size_t at) { return at < bytes.size() ? static_cast<unsigned char>(bytes[at]) : 0u; };
+  const auto byte = [&](std::size_t at) { return std::size_t{static_cast<unsigned char>(bytes[at])}; };
   const std::string_view first =
       bytes.size() < kHeader ? std::string_view() : bytes.substr(kHeader, byte(26) + 256 * byte(27));
   if (first.ends_with("data.pkl") || first.ends_with(".format_version"))

@@ -37,7 +37,7 @@ class OnnxLayers::Emission {
       values_.push_back(std::visit([&](const auto& layer) { return value_of(layer); }, node.layer));
       values_.back().shape = node.shape;
     }
-    return values_.back();
+    return without_zeros(values_.back());
   }
 
  private:
@@ -70,10 +70,13 @@ class OnnxLayers::Emission {
       const Padding& z = value.zeros;
       const std::string pads = new_constant("pads", {0, 0, z.top, z.left, 0, 0, z.bottom, z.right});
       value.name = to_.add("Pad", unused_name("padded"), {value.name, pads});
+      value.channels_first[0] += z.top + z.bottom;
+      value.channels_first[1] += z.left + z.right;
       value.zeros = {};
     }
     return value;
   }
+  OnnxValue without_zeros(const OnnxValue& value) { return has_zeros(value) ? image(value) : value; }
   std::string unused_name(const char* what) { return joined(name_, ":", what, number_++); }
   std::string new_constant(const char* what, const Integers& values) {
     return to_.add_constant(unused_name(what), {static_cast<Index>(values.size())}, values);
@@ -201,8 +204,7 @@ class OnnxLayers::Emission {
   OnnxValue value_of(const ActivationLayer& l) {
     OnnxValue value = input();
     if (!value.parts.empty()) value = {.name = layers_.rows_of(value), .shape = value.shape};
-    if (has_zeros(value)) value = image(value);
-    return activated(value, l.activation);
+    return activated(without_zeros(value), l.activation);
   }
 
   OnnxValue value_of(const Pool2dLayer& l) {
@@ -271,13 +273,10 @@ class OnnxLayers::Emission {
     return value;
   }
 
-  OnnxValue value_of(const FlattenLayer&) {
-    OnnxValue value = input();
-    return has_zeros(value) ? image(value) : value;
-  }
+  OnnxValue value_of(const FlattenLayer&) { return without_zeros(input()); }
   OnnxValue value_of(const ReshapeLayer&) {
     if (input().shape == node_->shape) return input();
-    return {.name = layers_.rows_of(input())};
+    return {.name = layers_.rows_of(without_zeros(input()))};
   }
   OnnxValue value_of(const DropoutLayer&) { return input(); }
 

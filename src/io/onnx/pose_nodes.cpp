@@ -47,7 +47,7 @@ class PoseNodes {
       std::vector<float> signs, offsets;
       for (int symmetry = 0; symmetry < symmetries; ++symmetry) {
         const double at_0 = view::symmetric_theta_deg(symmetry, 0), at_1 = view::symmetric_theta_deg(symmetry, 1);
-        const bool grows = at_1 - at_0 == 1 || at_1 - at_0 == 1 - 360.0;
+        const bool grows = at_1 - at_0 == 1;  // at_0 is a multiple of 90 below 360
         signs.push_back(grows ? 1.0f : -1.0f);
         offsets.push_back(static_cast<float>(at_0));
       }

@@ -129,7 +129,7 @@ path movable(const path& named, const path& folder) {
   const path relative = there.lexically_relative(here);
   const auto ups = std::count(relative.begin(), relative.end(), path(".."));
   const bool near = ups < 2 || (ups == 2 && here.parent_path().parent_path() != here.root_path());
-  return !relative.empty() && near && ups <= 2 ? relative : named;
+  return !relative.empty() && near ? relative : named;
 }
 
 }  // namespace
