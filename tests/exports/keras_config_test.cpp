@@ -65,7 +65,11 @@ TEST_CASE("a configuration with a damaged layer is refused") {
   CHECK_THAT(message([](json& layer) { layer["inbound_nodes"][0]["args"][0]["config"]["keras_history"][0] = "imag"; }),
              Contains("config.json: ") && Contains("'imag'"));
   CHECK_THAT(message([](json& layer) { layer["config"]["kernel_size"] = json::array({3}); }),
-             Contains("config.json: ") && Contains("array index 1 is out of range"));
+             Contains("config.json: expected two sizes, got 1"));
+  CHECK_THAT(message([](json& layer) {
+               layer["config"]["kernel_size"] = {3, 3, 3};
+             }),
+             Contains("config.json: expected two sizes, got 3"));
 }
 
 TEST_CASE("a configuration of another kind is refused") {

@@ -50,7 +50,7 @@ class Reading {
     value = enum_from_name<Activation>("unknown value", config_.at(name).get<std::string>());
   }
   void pair(const char* name, Index& first, Index& second) {
-    const auto sizes = config_.at(name).get<std::array<Index, 2>>();
+    const auto sizes = two(config_.at(name));
     first = sizes[0];
     second = sizes[1];
   }
@@ -58,8 +58,10 @@ class Reading {
     padding = {.kind = enum_from_name<Padding::Kind>("unknown padding", config_.at("padding").get<std::string>())};
   }
   void zeros(Padding& padding) {
-    const auto sizes = config_.at("padding").get<std::array<std::array<Index, 2>, 2>>();
-    padding = Padding::of(sizes[0][0], sizes[0][1], sizes[1][0], sizes[1][1]);
+    const json& sizes = config_.at("padding");
+    check(sizes.size() == 2, "expected two sides of padding, got ", sizes.size());
+    const auto rows = two(sizes.at(0)), columns = two(sizes.at(1));
+    padding = Padding::of(rows[0], rows[1], columns[0], columns[1]);
   }
   void batch_shape(Shape& shape) {
     const json& sizes = config_.at("batch_shape");
@@ -68,6 +70,12 @@ class Reading {
   }
 
  private:
+  /// nlohmann ignores what follows the last element of an array.
+  static std::array<Index, 2> two(const json& sizes) {
+    check(sizes.size() == 2, "expected two sizes, got ", sizes.size());
+    return sizes.get<std::array<Index, 2>>();
+  }
+
   const json& config_;
 };
 
