@@ -15,7 +15,7 @@ namespace {
 /// `size` bytes of a number, the smallest first.
 std::string le(std::uint64_t number, std::size_t size) {
   std::string bytes;
-  for (std::size_t i = 0; i < size; ++i) bytes += static_cast<char>(number >> (8 * i));
+  for (std::size_t i = 0; i < size; ++i, number >>= 8) bytes += static_cast<char>(number);
   return bytes;
 }
 
