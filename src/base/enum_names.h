@@ -48,6 +48,7 @@ template <class Enum>
 std::vector<std::string> names_of() {
   static_assert(has_enum_names<Enum>, "write enum_table for this enum, in its namespace");
   std::vector<std::string> names;
+  names.reserve(enum_names<Enum>.size());
   for (const EnumName<Enum>& entry : enum_names<Enum>) names.emplace_back(entry.name);
   return names;
 }

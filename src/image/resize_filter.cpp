@@ -40,8 +40,8 @@ constexpr int kLowBits = 15;
 /// The sums of the products of neighbours.
 template <class V>
 HWY_INLINE hn::Vec<Words> pair_products(V a, V b) {
-  constexpr Words words;
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_SSE4  // better ones have smaller numbers; emulated vectors are summed otherwise
+  constexpr Words words;
   auto none = hn::Zero(words);
   return hn::ReorderWidenMulAccumulate(words, a, b, hn::Zero(words), none);  // neighbours stay together
 #else

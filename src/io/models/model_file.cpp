@@ -42,7 +42,7 @@ void add_parameters(TensorFile& file, const std::string& prefix, const Graph& gr
   for (const auto& node : graph.nodes())
     for (const auto& spec : node.parameters) {
       const std::string name = node.parameter_name(spec);
-      file.add(prefix + "/" + name, parameters.at(name),
+      file.add(joined(prefix, "/", name), parameters.at(name),
                is_rounded(name, spec.shape) ? precision : StoredPrecision::f32);
     }
 }

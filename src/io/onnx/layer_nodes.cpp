@@ -174,12 +174,12 @@ class OnnxLayers::Emission {
       const OnnxValue& part = parts[i];
       const Index count = element_count(part.shape);
       const std::string suffix = parts.size() == 1 ? std::string() : joined(":", i);
-      const std::string weights = kernel(
-          "kernel", dense_kernel(name_ + "/kernel" + suffix, parameter("kernel"), first, count, part.channels_first));
+      const std::string weights = kernel("kernel", dense_kernel(joined(name_, "/kernel", suffix), parameter("kernel"),
+                                                                first, count, part.channels_first));
       const std::string row = part.channels_first.empty() ? layers_.rows_of(part)
                                                           : to_.add("Flatten", unused_name("row"), {image(part).name});
-      const std::string product = to_.add("MatMul", name_ + ":product" + suffix, {row, weights});
-      sum = sum.empty() ? product : to_.add("Add", name_ + ":sum" + suffix, {sum, product});
+      const std::string product = to_.add("MatMul", joined(name_, ":product", suffix), {row, weights});
+      sum = sum.empty() ? product : to_.add("Add", joined(name_, ":sum", suffix), {sum, product});
       first += count;
     }
     if (l.bias) sum = to_.add("Add", name_, {sum, constant("bias")});
