@@ -101,7 +101,8 @@ void put_attribute(const File& file, const Request& request, Sink& sink) {
     file.fail_at(where, "holds ", extent.count, " values, expected one");
   put_shape(extent, sink);
   const auto read_blocks = [&](std::uint64_t, const TakeBlock& take) {
-    take(extent.count, [&](hid_t memory, hid_t, void* values) { return H5Aread(handle.id(), memory, values); });
+    if (extent.count > 0)
+      take(extent.count, [&](hid_t memory, hid_t, void* values) { return H5Aread(handle.id(), memory, values); });
   };
   put_values(file, request.as, {where, type.id(), extent.count, read_blocks}, sink);
 }

@@ -40,8 +40,7 @@ bool has_signature(const fs::path& path, std::uint64_t size) {
   for (std::uint64_t start = 0; start + kSignature.size() <= size; start = start == 0 ? 512 : 2 * start) {
     char found[kSignature.size()]{};
     file.seekg(static_cast<std::streamoff>(start));
-    file.read(found, sizeof found);
-    if (std::string_view(found, sizeof found) == kSignature) return true;
+    if (file.read(found, sizeof found) && std::string_view(found, sizeof found) == kSignature) return true;
     file.clear();
   }
   return false;

@@ -1,6 +1,7 @@
 #include "io/models/model_file.h"
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "frame/frame_inputs.h"
@@ -132,7 +133,7 @@ void check_seen(const Model& model) {
   const auto count = static_cast<std::size_t>(frame::shape_number_count(frame_spec(model)));
   check(seen.mean.size() == count && seen.deviation.size() == count, "frame: seen has ", seen.mean.size(),
         " means and ", seen.deviation.size(), " deviations, expected ", count);
-  const auto is_size = [](double value) { return value >= 0; };  // JSON has no infinity
+  const auto is_size = [](double value) { return std::isfinite(value) && value >= 0; };
   check(std::ranges::all_of(seen.deviation, is_size) && is_size(seen.limit),
         "frame: a deviation or the limit in seen is negative");
 }
