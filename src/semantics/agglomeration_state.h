@@ -16,7 +16,7 @@ struct AgglomerationState {
   float* scratch;             ///< a row of dissimilarities
   const float* only_later;    ///< elements -stride to stride: infinity up to element 0, then 0
   const float* only_earlier;  ///< elements -stride to stride: 0 before element 0, infinity from there on
-  float* nearest_value;       ///< lower bound of the dissimilarity to the nearest later slot; infinity if there is none
+  float* nearest_value;       ///< no later slot is nearer than this; infinity if there is no later slot
   float* next_value;          ///< lower bound of those to the other later slots; the largest float if there are none
   std::int32_t* nearest;      ///< the first slot at the bound, which is then exact; -1: the slot must be searched
   std::int32_t* merged_into;  ///< output

@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 def runs_of_lines(segments):
     """{line: how often it ran} of a file's segments (line, column, count, has a count, starts a region, is a gap)."""
     runs = {}
-    wrapped, last = None, 1
+    wrapped = None
     by_line = collections.defaultdict(list)
     for segment in segments:
         by_line[segment[0]].append(segment)
