@@ -1,20 +1,9 @@
 #include "io/onnx/layer_weights.h"
 
-#include <cstring>
-
-#include "nn/kernels/packed/bf16_tile.h"
+#include "base/bf16.h"
 
 namespace svnet::io {
 namespace {
-
-std::vector<std::byte> bf16_bytes(std::span<const float> values) {
-  std::vector<std::byte> bytes(2 * values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const auto bits = static_cast<std::uint16_t>(kernels::bf16_bits(values[i]));
-    std::memcpy(bytes.data() + 2 * i, &bits, sizeof bits);
-  }
-  return bytes;
-}
 
 kernels::ChannelShape channels_of(const OnnxKernel& kernel) {
   kernels::ChannelShape shape{.outer = 1, .channels = kernel.shape[static_cast<std::size_t>(kernel.channel_axis)]};

@@ -1,7 +1,6 @@
 #include "io/onnx/onnx_run.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstring>
 #include <functional>
@@ -9,6 +8,7 @@
 #include <numeric>
 #include <string_view>
 
+#include "base/bf16.h"
 #include "base/parallel.h"
 #include "io/onnx/onnx_operands.h"
 #include "io/onnx/onnx_shapes.h"
@@ -118,11 +118,7 @@ OnnxTensor from_bf16(const OnnxOperands& node) {
   const OnnxConstant& from = node.constant(0);
   if (from.type != OnnxType::bf16) node.refuse("the input is not bfloat16");
   OnnxTensor y = tensor_of(from.shape);
-  for (std::size_t i = 0; i < y.values.size(); ++i) {
-    std::uint16_t upper = 0;
-    std::memcpy(&upper, from.bytes.data() + 2 * i, 2);
-    y.values[i] = std::bit_cast<float>(std::uint32_t{upper} << 16);
-  }
+  read_bf16(from.bytes, y.values);
   return y;
 }
 

@@ -1,19 +1,18 @@
 #include "io/tensors/tensor_file.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <iomanip>
 #include <list>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/bf16.h"
 #include "base/crc32c.h"
 #include "base/finite.h"
 #include "base/parallel.h"
 #include "io/tensors/safetensors.h"
 #include "nn/kernels/int8/int8_weights.h"
-#include "nn/kernels/packed/bf16_tile.h"
 
 namespace svnet::io {
 namespace {
@@ -42,10 +41,7 @@ Tensor f32_copy(const SafetensorsTensor& from) {
 
 Tensor bf16_copy(const SafetensorsTensor& from) {
   Tensor tensor = Tensor::empty(from.shape);
-  std::vector<std::uint16_t> halves(from.bytes.size() / 2);  // the upper halves of the floats
-  std::memcpy(halves.data(), from.bytes.data(), from.bytes.size());
-  std::ranges::transform(halves, tensor.data<float>(),
-                         [](std::uint16_t half) { return std::bit_cast<float>(std::uint32_t{half} << 16); });
+  read_bf16(from.bytes, {tensor.data<float>(), static_cast<std::size_t>(tensor.size())});
   return tensor;
 }
 
@@ -215,13 +211,9 @@ void TensorFile::write(const std::filesystem::path& path) const {
       case StoredPrecision::f32:
         raw.push_back({name, "F32", tensor.shape(), std::as_bytes(tensor.values<float>())});
         break;
-      case StoredPrecision::bf16: {
-        std::vector<std::uint16_t> halves(static_cast<std::size_t>(tensor.size()));
-        std::ranges::transform(tensor.values<float>(), halves.begin(),
-                               [](float value) { return static_cast<std::uint16_t>(kernels::bf16_bits(value)); });
-        raw.push_back({name, "BF16", tensor.shape(), keep(halves)});
+      case StoredPrecision::bf16:
+        raw.push_back({name, "BF16", tensor.shape(), rounded.emplace_back(bf16_bytes(tensor.values<float>()))});
         break;
-      }
       case StoredPrecision::int8: {
         const kernels::ChannelShape shape = channels_of(tensor.shape());
         const kernels::Int8Weights weights = kernels::int8_weights(shape, tensor.data<float>());

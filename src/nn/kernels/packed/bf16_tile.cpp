@@ -1,20 +1,8 @@
 #include "nn/kernels/packed/bf16_tile.h"
 
 #include <array>
-#include <bit>
 #include <cassert>
-#include <cmath>
 #include <utility>
-
-namespace svnet::kernels {
-
-std::uint32_t bf16_bits(float x) {
-  const auto bits = std::bit_cast<std::uint32_t>(x);
-  if (std::isnan(x)) return bits >> 16 | 0x40;
-  return (bits + 0x7fff + (bits >> 16 & 1)) >> 16;
-}
-
-}  // namespace svnet::kernels
 
 #if defined(__x86_64__)
 #include <immintrin.h>

@@ -1,6 +1,4 @@
 #pragma once
-#include <cstdint>
-
 #include "nn/kernels/packed/tile_kernels.h"
 
 // Products of bf16 elements with sums in f32, by the instructions of AVX512-BF16. Two neighbours along the depth make a
@@ -10,9 +8,6 @@
 namespace svnet::kernels {
 
 inline constexpr Index pairs(Index depth) { return (depth + 1) / 2; }
-
-/// x rounded to the nearest bf16, ties to even, as the upper half of an f32. NaN stays NaN.
-std::uint32_t bf16_bits(float x);
 
 /// Whether processor and operating system have AVX512-BF16. The functions below require it.
 bool machine_has_bf16();

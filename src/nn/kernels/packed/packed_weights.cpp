@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 
+#include "base/bf16.h"
 #include "base/error.h"
 #include "nn/kernels/packed/bf16_tile.h"
 #include "nn/kernels/packed/int8_tile.h"
@@ -28,8 +29,8 @@ PackedWeights packed_weights(Index depth, Index n, const float* w, const float* 
       const float* from = w + (paired ? 2 * i : i) * n + p * kPanel;
       if (paired)
         for (Index j = 0; j < columns; ++j) {
-          const std::uint32_t second = 2 * i + 1 < depth ? bf16_bits(from[n + j]) : 0;
-          to[j] = std::bit_cast<float>(second << 16 | bf16_bits(from[j]));
+          const std::uint32_t first = bf16_bits(from[j]), second = 2 * i + 1 < depth ? bf16_bits(from[n + j]) : 0;
+          to[j] = std::bit_cast<float>(second << 16 | first);
         }
       else
         std::copy_n(from, columns, to);
