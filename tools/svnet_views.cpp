@@ -45,20 +45,14 @@ struct CameraView {
 
 /// The numbers of a view, by name, in the order of the columns.
 std::vector<std::pair<const char*, double>> fields(const CameraView& view) {
-  const Eigen::Vector3d t = view.camera_to_world.translation();
-  const Eigen::Quaterniond q = view::orientation(view.camera_to_world);
   constexpr double kRadian = std::numbers::pi / 180;
-  return {{"theta", view.pose.theta_deg},
-          {"phi", view.pose.phi_deg},
-          {"theta_rad", view.pose.theta_deg * kRadian},
-          {"phi_rad", view.pose.phi_deg * kRadian},
-          {"x_m", t.x()},
-          {"y_m", t.y()},
-          {"z_m", t.z()},
-          {"qx", q.x()},
-          {"qy", q.y()},
-          {"qz", q.z()},
-          {"qw", q.w()}};
+  std::vector<std::pair<const char*, double>> numbers{{"theta", view.pose.theta_deg},
+                                                      {"phi", view.pose.phi_deg},
+                                                      {"theta_rad", view.pose.theta_deg * kRadian},
+                                                      {"phi_rad", view.pose.phi_deg * kRadian}};
+  const auto place = view::position_and_orientation(view.camera_to_world);
+  numbers.insert(numbers.end(), place.begin(), place.end());
+  return numbers;
 }
 
 std::string csv_text(const std::vector<CameraView>& views) {

@@ -20,25 +20,18 @@ CameraPlace camera_place(FieldValues& fields) {
 nlohmann::ordered_json camera_pose_json(const view::CameraPose& pose, const CameraPlace& place) {
   using Json = nlohmann::ordered_json;
   const Eigen::Isometry3d camera = view::look_at(pose, place.radius_m, place.centre_m, place.frame);
-  const Eigen::Vector3d t = camera.translation();
-  const Eigen::Quaterniond q = view::orientation(camera);
   Json rows = Json::array();
   for (int row = 0; row < 4; ++row) {
     Json numbers = Json::array();
     for (int column = 0; column < 4; ++column) numbers.push_back(camera.matrix()(row, column) + 0.0);  // not -0
     rows.push_back(std::move(numbers));
   }
-  return {{"frame", name_of(place.frame)},
-          {"radius_m", place.radius_m},
-          {"centre_m", {place.centre_m.x(), place.centre_m.y(), place.centre_m.z()}},
-          {"x_m", t.x()},
-          {"y_m", t.y()},
-          {"z_m", t.z()},
-          {"qx", q.x()},
-          {"qy", q.y()},
-          {"qz", q.z()},
-          {"qw", q.w()},
-          {"camera_to_world", std::move(rows)}};
+  Json json{{"frame", name_of(place.frame)},
+            {"radius_m", place.radius_m},
+            {"centre_m", {place.centre_m.x(), place.centre_m.y(), place.centre_m.z()}}};
+  for (const auto& [name, number] : view::position_and_orientation(camera)) json[name] = number;
+  json["camera_to_world"] = std::move(rows);
+  return json;
 }
 
 }  // namespace svnet::serve

@@ -72,6 +72,12 @@ Eigen::Quaterniond orientation(const Eigen::Isometry3d& camera_to_world) {
   return q;
 }
 
+std::array<std::pair<const char*, double>, 7> position_and_orientation(const Eigen::Isometry3d& camera_to_world) {
+  const Eigen::Vector3d t = camera_to_world.translation();
+  const Eigen::Quaterniond q = orientation(camera_to_world);
+  return {{{"x_m", t.x()}, {"y_m", t.y()}, {"z_m", t.z()}, {"qx", q.x()}, {"qy", q.y()}, {"qz", q.z()}, {"qw", q.w()}}};
+}
+
 Eigen::Vector2d projected_px(const Intrinsics& camera, const Eigen::Vector3d& point) {
   return {camera.cx + camera.fx * point.x() / point.z(), camera.cy + camera.fy * point.y() / point.z()};
 }

@@ -1,6 +1,8 @@
 #pragma once
 #include <Eigen/Geometry>
+#include <array>
 #include <string>
+#include <utility>
 
 #include "base/enum_names.h"
 #include "base/index.h"
@@ -48,6 +50,9 @@ Eigen::Isometry3d look_at(const CameraPose&, double radius_m, const Eigen::Vecto
 
 /// The camera's orientation as files store it: the one with w >= 0 of the two quaternions.
 Eigen::Quaterniond orientation(const Eigen::Isometry3d& camera_to_world);
+
+/// A camera's position (m) and orientation() as files and answers store them: x_m, y_m, z_m, qx, qy, qz, qw.
+std::array<std::pair<const char*, double>, 7> position_and_orientation(const Eigen::Isometry3d& camera_to_world);
 
 /// The pixel at which a point of the optical frame (z > 0) appears.
 Eigen::Vector2d projected_px(const Intrinsics&, const Eigen::Vector3d& point_optical_m);

@@ -103,10 +103,8 @@ std::string camera_json(const CameraFile& camera) {
   const view::Intrinsics& k = camera.intrinsics;
   json document{{"width", k.width}, {"height", k.height}, {"fx", k.fx}, {"fy", k.fy}, {"cx", k.cx}, {"cy", k.cy}};
   if (camera.camera_to_world) {
-    const Eigen::Vector3d t = camera.camera_to_world->translation();
-    const Eigen::Quaterniond q = view::orientation(*camera.camera_to_world);
-    document["pose"] = {{"x_m", t.x()}, {"y_m", t.y()}, {"z_m", t.z()}, {"qx", q.x()},
-                        {"qy", q.y()},  {"qz", q.z()},  {"qw", q.w()}};
+    for (const auto& [key, number] : view::position_and_orientation(*camera.camera_to_world))
+      document["pose"][key] = number;
   }
   return document.dump(2) + "\n";
 }
