@@ -15,10 +15,17 @@ train::BackboneWithOrigin chosen_backbone(const std::string& backbone, const std
   return {std::move(built_in->backbone), built_in->sha256};
 }
 
-std::vector<std::string> backbone_names() {
+command::Argument add_backbone_options(command::Command& command, std::string& backbone, std::filesystem::path& weights,
+                                       const std::string& network, const std::string& hint) {
   std::vector<std::string> names;
   for (const models::BackboneKind& kind : models::backbone_kinds()) names.push_back(kind.name);
-  return names;
+  const auto option = command.add("--backbone", backbone, network + ": " + joined_with(", ", names)).value_name("NAME");
+  command
+      .add("--weights", weights,
+           "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in, for tiny_xception alone)" +
+               hint)
+      .value_name("FILE");
+  return option;
 }
 
 }  // namespace svnet

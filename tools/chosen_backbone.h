@@ -1,8 +1,8 @@
 #pragma once
 #include <filesystem>
 #include <string>
-#include <vector>
 
+#include "command/command.h"
 #include "io/keras/keras_graph.h"
 #include "train/feature_extraction.h"
 
@@ -14,7 +14,9 @@ train::BackboneWithOrigin chosen_backbone(const std::string& backbone, const std
                                           const std::filesystem::path& weights, io::KerasLoadReport& report,
                                           const InferenceOptions& options);
 
-/// The names that --backbone takes.
-std::vector<std::string> backbone_names();
+/// Adds --backbone NAME and --weights FILE. `network`: how the help begins to say what the network does. `hint`: what
+/// the help says after the kinds of weights. Returns the former, which may be required or show its default.
+command::Argument add_backbone_options(command::Command& command, std::string& backbone, std::filesystem::path& weights,
+                                       const std::string& network, const std::string& hint = "");
 
 }  // namespace svnet

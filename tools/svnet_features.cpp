@@ -41,11 +41,7 @@ int run(int argc, char** argv, Communicator& communicator) {
       "--output features.h5");
   std::string backbone, layer, exif{name_of(ExifOrientation::ignore)};
   std::filesystem::path weights, images, output;
-  command.add("--backbone", backbone, "The network: " + joined_with(", ", backbone_names()))
-      .required()
-      .value_name("NAME");
-  command.add("--weights", weights, "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in)")
-      .value_name("FILE");
+  add_backbone_options(command, backbone, weights, "The network").required();
   command.add("--images", images, "The dataset's folder").required().value_name("DIR");
   command.add("--output", output, "The file to write").required().value_name("FILE");
   command.add("--layer", layer, "The layer whose output is taken, flattened (default: the pooled one)")

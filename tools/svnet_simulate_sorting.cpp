@@ -169,13 +169,7 @@ int main(int argc, char** argv) {
            "The number of bins, or auto: it is estimated from how far the objects are apart (default: the number of "
            "categories on the table)")
       .value_name("K|auto");
-  command.add("--backbone", a.backbone, "The network that sees the views: " + joined_with(", ", backbone_names()))
-      .value_name("NAME")
-      .shows_default();
-  command
-      .add("--weights", a.weights,
-           "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in, for tiny_xception alone)")
-      .value_name("FILE");
+  add_backbone_options(command, a.backbone, a.weights, "The network that sees the views").shows_default();
   command.add("--seed", a.options.seed, "Seed of tables, random views and intervals").shows_default();
   command
       .add("--json", a.json,

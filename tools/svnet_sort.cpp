@@ -200,14 +200,9 @@ int main(int argc, char** argv) {
            "off by one; --dendrogram shows where to cut instead")
       .value_name("K|auto")
       .shows_default();
-  command.add("--backbone", a.backbone, "The network that sees the pictures: " + joined_with(", ", backbone_names()))
-      .value_name("NAME")
+  add_backbone_options(command, a.backbone, a.weights, "The network that sees the pictures",
+                       ". Weights of ImageNet know more kinds of objects")
       .shows_default();
-  command
-      .add("--weights", a.weights,
-           "Its weights: Keras HDF5, or .safetensors of svnet-pretrain (default: built in, for tiny_xception alone). "
-           "Weights of ImageNet know more kinds of objects")
-      .value_name("FILE");
   command.add("--linkage", a.linkage, "How the distance of two groups is measured; groups that are nearest are joined")
       .one_of(names_of<Linkage>())
       .shows_default();
