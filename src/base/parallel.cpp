@@ -131,6 +131,7 @@ struct Parallel::Pool {
   /// The number of the call, whether helpers may still join it, and how many have joined. A call closes when its caller
   /// finds no chunk left, and ends when the last helper that joined has left. It never waits for other helpers.
   std::atomic<std::uint64_t> state{0};
+  std::atomic<int> running{0};             // helpers that have started
   std::atomic<int> sleepers{0};            // helpers that must be woken
   std::atomic<bool> caller_sleeps{false};  // the last helper to leave must wake the caller
   std::atomic<bool> stop{false};
@@ -155,12 +156,17 @@ struct Parallel::Pool {
       fail("[threads] cannot start ", count, " threads: ", error.code().message());
     }
     threads = count;
+#ifdef SVNET_SANITIZED
+    // A thread that starts locks the allocator of the address sanitizer, and a process forked meanwhile never unlocks it.
+    while (running < count - 1) std::this_thread::yield();
+#endif
   }
 
   /// Whether there is an open call that a helper has not joined yet. `seen`: the last one it joined.
   static bool is_new_call(std::uint64_t now, std::uint64_t seen) { return (now & kOpen) != 0 && now / kCall != seen; }
 
   void help(int worker) {
+    ++running;
     for (std::uint64_t seen = 0;;) {
       const auto called = [&] { return stop.load() || is_new_call(state.load(), seen); };
       if (!(may_spin && spin_until(called))) {
@@ -217,6 +223,7 @@ struct Parallel::Pool {
     wake.notify_all();
     for (auto& helper : helpers) helper.join();
     helpers.clear();
+    running = 0;
   }
 };
 
