@@ -16,8 +16,13 @@ namespace HWY_NAMESPACE {
 
 /// Whether there are vectors. Without them the general loops serve every window.
 constexpr bool kHasVectors = HWY_TARGET != HWY_SCALAR;
-/// Neighbouring output pixels whose sums are kept in registers: they share the loads of the taps.
+/// Neighbouring output pixels whose sums are kept in registers: they share the loads of the taps. Sanitizers make four
+/// take minutes to compile.
+#ifdef SVNET_SANITIZED
+constexpr int kPixels = kHasVectors ? 2 : 1;
+#else
 constexpr int kPixels = kHasVectors ? 4 : 1;
+#endif
 /// Channels of a row that are computed before the next row is.
 constexpr Index kChannels = 4 * kPanel;
 
