@@ -157,7 +157,8 @@ struct Parallel::Pool {
     }
     threads = count;
 #ifdef SVNET_SANITIZED
-    // A thread that starts locks the allocator of the address sanitizer, and a process forked meanwhile never unlocks it.
+    // A thread that starts locks the allocator of the address sanitizer, and a process forked meanwhile never unlocks
+    // it.
     while (running < count - 1) std::this_thread::yield();
 #endif
   }
