@@ -288,8 +288,9 @@ TEST_CASE("an option chooses bf16 if the machine has it") {
     for (const StepReport& step : made(bf16).report(1)) kernels.push_back(step.kernel);
     for (const char* kernel : {"bf16 gemm 1x1", "depthwise 3x3 + bf16 gemm", "winograd 3x3", "implicit gemm 3x3"})
       CHECK(std::count(kernels.begin(), kernels.end(), kernel) > 0);
+    const bool may_be_capped = instruction_sets().front().starts_with("AVX3");  // unless kernels have AVX2 alone
     for_instruction_sets([&](const std::string& name) {
-      if (!name.starts_with("AVX3"))
+      if (may_be_capped && !name.starts_with("AVX3"))
         CHECK_THROWS_WITH(made(bf16), Catch::Contains("bf16 needs AVX-512, but kernels are capped at " + name));
     });
   } else {
