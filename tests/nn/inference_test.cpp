@@ -214,6 +214,7 @@ TEST_CASE("several threads may run one compiled graph") {
   const Tensor expected = compiled.run({kImages});
   std::vector<Tensor> results(4);
   std::vector<std::thread> threads;
+  threads.reserve(results.size());
   for (Tensor& result : results)
     threads.emplace_back([&] {
       for (int i = 0; i < 5; ++i) result = compiled.run({kImages});

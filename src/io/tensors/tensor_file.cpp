@@ -65,9 +65,9 @@ Tensor int8_copy(const std::string& path, const SafetensorsFile& raw, const Safe
 Tensor copied(const std::string& path, const SafetensorsFile& raw, const SafetensorsTensor& from) {
   check(from.dtype == "F32" || from.dtype == "BF16" || from.dtype == "I8", path, ": tensor '", from.name, "' is ",
         from.dtype, ", expected F32, BF16 or I8");
-  const Tensor tensor = from.dtype == "F32"    ? f32_copy(from)
-                        : from.dtype == "BF16" ? bf16_copy(from)
-                                               : int8_copy(path, raw, from);
+  Tensor tensor = from.dtype == "F32"    ? f32_copy(from)
+                  : from.dtype == "BF16" ? bf16_copy(from)
+                                         : int8_copy(path, raw, from);
   check_finite(path, from.name, tensor);
   return tensor;
 }

@@ -74,6 +74,7 @@ Eigen::Isometry3d pose_of(const json& pose, const std::string& name) {
   check(pose.is_object(), name, ": is no mapping of keys to values");
   check_keys(pose, name, keys);
   std::vector<double> p;
+  p.reserve(keys.size());
   for (const std::string& key : keys) p.push_back(number_at(pose, name, key));
   const Eigen::Quaterniond rotation(p[6], p[3], p[4], p[5]);
   check(std::abs(rotation.norm() - 1) < 1e-3, name, ": the quaternion has length ", rotation.norm(), ", expected 1");
