@@ -7,7 +7,7 @@ namespace fs = std::filesystem;
 
 fs::path config_file_of(const fs::path& run_folder) {
   check(fs::is_directory(run_folder), run_folder.string(), ": no such run folder");
-  const fs::path config = fs::canonical(run_folder) / "config.yaml";
+  fs::path config = fs::canonical(run_folder) / "config.yaml";
   check(fs::exists(config), run_folder.string(),
         ": is no run folder, it has no config.yaml; svnet-train and svnet-crossval make one");
   return config;

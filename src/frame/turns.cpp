@@ -20,8 +20,9 @@ constexpr double kStep_deg = 360.0 / kTurnsOfAKind, kFirst_deg = kStep_deg / 4;
 void add_interpolation(double theta_deg, double first_deg, int place, std::array<double, kTurns>& weights) {
   const double steps = (theta_deg - first_deg) / kStep_deg, below = std::floor(steps), share = steps - below;
   const int k = (static_cast<int>(below) % kTurnsOfAKind + kTurnsOfAKind) % kTurnsOfAKind;
-  weights[static_cast<std::size_t>(2 * k + place)] += (1 - share) / 2;
-  weights[static_cast<std::size_t>(2 * ((k + 1) % kTurnsOfAKind) + place)] += share / 2;
+  const int near = 2 * k + place, far = 2 * ((k + 1) % kTurnsOfAKind) + place;
+  weights[static_cast<std::size_t>(near)] += (1 - share) / 2;
+  weights[static_cast<std::size_t>(far)] += share / 2;
 }
 
 }  // namespace

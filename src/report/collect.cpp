@@ -177,7 +177,7 @@ RunReport collect(const train::Config& config, const ViewDataset& dataset, const
 
 fs::path write_report(const train::Config& config, const ViewDataset& dataset, const fs::path& folder,
                       Parallel& parallel, const fs::path& file) {
-  const fs::path path = file.empty() ? folder / "report.html" : file;
+  fs::path path = file.empty() ? folder / "report.html" : file;
   io::write_atomically(path, report_html(collect(config, dataset, folder, parallel)));
   return path;
 }

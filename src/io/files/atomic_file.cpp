@@ -45,7 +45,8 @@ fs::path checked_target(const fs::path& path) {
   check(!fs::is_directory(status), path.string(), ": cannot be written: it is a folder; give the name of a file");
   check(!fs::exists(status) || fs::is_regular_file(status), path.string(),
         ": cannot be written: it exists and is not a regular file; give another name");
-  const fs::path target = followed(path), folder = folder_of(target);
+  fs::path target = followed(path);
+  const fs::path folder = folder_of(target);
   const fs::file_status folder_status = fs::status(folder, error);
   check(folder_status.type() != fs::file_type::not_found, path.string(), ": cannot be written: the folder ",
         folder.string(), " does not exist; create it first");

@@ -12,7 +12,7 @@ namespace {
 
 std::filesystem::path temporary_folder() {
   const std::string chosen = environment_variable("TMPDIR");
-  const std::filesystem::path folder = chosen.empty() ? "/tmp" : chosen;
+  std::filesystem::path folder = chosen.empty() ? "/tmp" : chosen;
   std::error_code error;
   check(std::filesystem::is_directory(folder, error), folder.string(),
         ": is no folder for temporary files; set TMPDIR to one");

@@ -55,7 +55,7 @@ std::optional<fs::path> CollectionFiles::find(const char* kind, const std::strin
   if (written.starts_with("file://")) written.erase(0, 7);
   bool leaves = true;
   for (const Place& place : places_) {
-    const fs::path path = (is_absolute(written) ? fs::path(written) : place.folder / written).lexically_normal();
+    fs::path path = (is_absolute(written) ? fs::path(written) : place.folder / written).lexically_normal();
     if (!lies_in(path, place.collection)) continue;
     leaves = false;
     if (is_file(path)) return path;
@@ -70,7 +70,7 @@ std::optional<fs::path> CollectionFiles::find(const char* kind, const std::strin
   check(!leaves, name(), ": ", kind, " '", printable(reference), "' lies outside the collection ",
         places_.front().collection.string(), "; copy it there and name it by a relative path");
   for (const Place& place : places_)
-    if (const fs::path path = (place.folder / "../materials/textures" / file).lexically_normal();
+    if (fs::path path = (place.folder / "../materials/textures" / file).lexically_normal();
         !is_absolute(written) && lies_in(path, place.collection) && is_file(path))
       return path;
   return std::nullopt;

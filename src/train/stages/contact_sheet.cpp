@@ -21,7 +21,7 @@ std::optional<std::filesystem::path> contact_sheet_stage(const Run& run, const E
 
 std::filesystem::path write_contact_sheet(const Run& run, const std::vector<bool>& categories,
                                           std::span<const Selector> selectors) {
-  const auto path = run.folder / "views.png";
+  std::filesystem::path path = run.folder / "views.png";
   io::write_png(path, view_sheet(run.dataset, sheet_poses(run.dataset, categories), selectors));
   return path;
 }
