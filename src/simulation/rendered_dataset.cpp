@@ -76,7 +76,7 @@ Json write_pose(const CollectedPose& pose, std::uint32_t attempts, Index size, i
 }
 
 /// What is kept of a pose until the end.
-struct Entry {
+struct Entry {  // NOLINT(bugprone-exception-escape): of Json, whose move does not throw
   Json manifest;
   Image image;          // for the contact sheet, perhaps
   std::string problem;  // why the pose is left out
