@@ -75,7 +75,7 @@ std::vector<std::size_t> pictured_selectors(const std::vector<train::Selector>& 
   return {0, static_cast<std::size_t>(chosen - selectors.begin())};
 }
 
-void simulate_sorting(Arguments a, const InferenceOptions& inference, Console& console) {
+void simulate_sorting(const Arguments& a, const InferenceOptions& inference, Console& console) {
   check_outputs(a);
   std::optional<predict::Predictor> predictor;
   std::vector<std::string> known;
