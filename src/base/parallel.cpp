@@ -157,8 +157,8 @@ struct Parallel::Pool {
     }
     threads = count;
 #ifdef SVNET_SANITIZED
-    // A thread that starts locks the allocator of the address sanitizer, and a process forked meanwhile never unlocks
-    // it.
+    // While a thread starts, it holds a lock of the address sanitizer's allocator. In a process that is forked then,
+    // the lock stays held, and the next allocation waits for ever.
     while (running < count - 1) std::this_thread::yield();
 #endif
   }

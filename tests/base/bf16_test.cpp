@@ -7,25 +7,16 @@
 #include <limits>
 
 #include "base/random.h"
+#include "base/rounded_to_bf16.h"
 
 using namespace svnet;
-
-namespace {
-
-/// Rounds to 8 significant bits, ties to even.
-double rounded(double x) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);
-  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 8)), exponent - 8);
-}
-
-}  // namespace
+using svnet::test::rounded_to_bf16;
 
 TEST_CASE("floats are rounded to the nearest bf16, ties to even") {
   RandomStream random(1, Stream::weights);
   for (int i = 0; i < 1000; ++i) {
     const auto x = static_cast<float>(static_cast<std::int32_t>(random.bits32()));
-    REQUIRE(f32_of_bf16(bf16_bits(x)) == static_cast<float>(rounded(x)));
+    REQUIRE(f32_of_bf16(bf16_bits(x)) == static_cast<float>(rounded_to_bf16(x)));
   }
   CHECK(bf16_bits(0x1.01p0f) == bf16_bits(1.0f));
   CHECK(bf16_bits(0x1.03p0f) == bf16_bits(0x1.04p0f));

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/instruction_sets.h"
+#include "base/rounded_to_bf16.h"
 #include "nn/kernels/conv2d/conv2d.h"
 #include "nn/kernels/conv2d/packed_conv2d.h"
 #include "nn/kernels/depthwise/depthwise.h"
@@ -19,16 +20,9 @@ using namespace svnet::test;
 
 namespace {
 
-/// Rounds to 8 significant bits, ties to even.
-double rounded(double x) {
-  int exponent = 0;
-  const double mantissa = std::frexp(x, &exponent);
-  return std::ldexp(std::nearbyint(std::ldexp(mantissa, 8)), exponent - 8);
-}
-
 std::vector<double> rounded(const Numbers& x) {
   std::vector<double> result = wide(x.get(), x.count);
-  for (double& v : result) v = rounded(v);
+  for (double& v : result) v = rounded_to_bf16(v);
   return result;
 }
 
@@ -117,7 +111,7 @@ TEST_CASE("separable convolutions in bf16 round the values between their halves;
     std::vector<double> between(static_cast<std::size_t>(w.positions() * c));
     depthwise_reference<double>(parallel, {w, 1}, wide(x.get(), x.count).data(), wide(taps.get(), taps.count).data(),
                                 between.data());
-    for (double& v : between) v = rounded(v);
+    for (double& v : between) v = rounded_to_bf16(v);
     std::vector<double> expected(static_cast<std::size_t>(w.positions() * k));
     gemm_reference<double>({.m = w.positions(), .n = k, .k = c}, between.data(), rounded(pointwise).data(),
                            expected.data());

@@ -1,6 +1,5 @@
 #include <bit>
 #include <csetjmp>
-#include <cstdio>
 #include <new>
 #include <span>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "base/error.h"
 #include "io/images/image_codecs.h"
+#include "io/images/png_errors.h"
 
 namespace svnet::io {
 namespace {
@@ -25,19 +25,11 @@ struct NoisyFormat {
   std::size_t row_bytes;
 };
 
-/// libpng with errors that return here. The functions that call setjmp have no local objects with destructors, because
-/// longjmp would skip those.
+/// libpng with errors that return here (PngErrors).
 class PngEncoder {
  public:
   PngEncoder() {
-    png_ = png_create_write_struct(
-        PNG_LIBPNG_VER_STRING, this,
-        [](png_structp png, png_const_charp message) {
-          auto* encoder = static_cast<PngEncoder*>(png_get_error_ptr(png));
-          std::snprintf(encoder->message_, sizeof encoder->message_, "%s", message);
-          std::longjmp(encoder->back_, 1);
-        },
-        [](png_structp, png_const_charp) {});
+    png_ = png_create_write_struct(PNG_LIBPNG_VER_STRING, &errors_, PngErrors::return_from, PngErrors::ignore);
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
     if (info_ == nullptr) png_destroy_write_struct(&png_, nullptr);
     check(info_ != nullptr, "libpng cannot be used: not enough memory, or another version than at compile time");
@@ -48,7 +40,7 @@ class PngEncoder {
 
   /// Writes rows of format.row_bytes each.
   bool write(Index height, Index width, const NoisyFormat& format, const std::uint8_t* rows) {
-    if (setjmp(back_) != 0) return false;
+    if (setjmp(errors_.back) != 0) return false;
     png_set_write_fn(
         png_, this,
         [](png_structp png, png_bytep bytes, std::size_t size) {
@@ -72,7 +64,7 @@ class PngEncoder {
   }
 
   std::string take() { return std::move(file_); }
-  const char* reason() const { return message_; }
+  const char* reason() const { return errors_.message; }
 
  private:
   /// Whether there was memory for them. Exceptions must not pass through libpng.
@@ -87,9 +79,8 @@ class PngEncoder {
 
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  std::jmp_buf back_;
   std::string file_;
-  char message_[200] = "";
+  PngErrors errors_{};
 };
 
 std::string encoded_noise(const std::string& name, Index height, Index width, const NoisyFormat& format,

@@ -1,6 +1,5 @@
 #include <bit>
 #include <csetjmp>
-#include <cstdio>
 #include <cstring>
 #include <new>
 #include <vector>
@@ -9,27 +8,19 @@
 
 #include "base/error.h"
 #include "io/images/image_codecs.h"
+#include "io/images/png_errors.h"
 
 namespace svnet::io {
 namespace {
 
 static_assert(std::endian::native == std::endian::little);  // the levels of a PNG are big-endian: png_set_swap
 
-/// libpng with errors that return here and without warnings (most are about colour profiles). It checks the CRC of
-/// every critical chunk, and reading up to the end chunk refuses truncated files.
-///
-/// The functions that call setjmp have no local objects with destructors, because longjmp would skip those.
+/// libpng with errors that return here (PngErrors). It checks the CRC of every critical chunk, and reading up to the
+/// end chunk refuses truncated files.
 class PngDecoder {
  public:
   explicit PngDecoder(Bytes file) : rest_(file) {
-    png_ = png_create_read_struct(
-        PNG_LIBPNG_VER_STRING, this,
-        [](png_structp png, png_const_charp message) {
-          auto* decoder = static_cast<PngDecoder*>(png_get_error_ptr(png));
-          std::snprintf(decoder->message_, sizeof decoder->message_, "%s", message);
-          std::longjmp(decoder->back_, 1);
-        },
-        [](png_structp, png_const_charp) {});
+    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, &errors_, PngErrors::return_from, PngErrors::ignore);
     info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
     if (info_ == nullptr) {
       png_destroy_read_struct(&png_, nullptr, nullptr);
@@ -41,7 +32,7 @@ class PngDecoder {
   PngDecoder& operator=(const PngDecoder&) = delete;
 
   bool read_header() {
-    if (setjmp(back_) != 0) return false;
+    if (setjmp(errors_.back) != 0) return false;
     png_set_read_fn(png_, this, [](png_structp png, png_bytep out, std::size_t size) {
       auto* decoder = static_cast<PngDecoder*>(png_get_io_ptr(png));
       if (size > decoder->rest_.size()) png_error(png, "the file ends too early");
@@ -56,7 +47,7 @@ class PngDecoder {
 
   Index height() const { return png_get_image_height(png_, info_); }
   Index width() const { return png_get_image_width(png_, info_); }
-  const char* reason() const { return message_; }
+  const char* reason() const { return errors_.message; }
 
   bool is_grey16() const {
     return png_get_color_type(png_, info_) == PNG_COLOR_TYPE_GRAY && png_get_bit_depth(png_, info_) == 16;
@@ -64,7 +55,7 @@ class PngDecoder {
 
   /// rows: the addresses of height rows of width 16-bit levels.
   bool read_grey16(std::uint8_t** rows) {
-    if (setjmp(back_) != 0) return false;
+    if (setjmp(errors_.back) != 0) return false;
     png_set_swap(png_);
     png_set_interlace_handling(png_);
     png_read_update_info(png_, info_);
@@ -75,7 +66,7 @@ class PngDecoder {
 
   /// rows: the addresses of height rows of (width, 3) bytes.
   bool read_pixels(std::uint8_t** rows) {
-    if (setjmp(back_) != 0) return false;
+    if (setjmp(errors_.back) != 0) return false;
     const int color = png_get_color_type(png_, info_);
     png_set_strip_16(png_);
     if (color == PNG_COLOR_TYPE_PALETTE) png_set_palette_to_rgb(png_);
@@ -97,8 +88,7 @@ class PngDecoder {
   Bytes rest_;
   png_structp png_ = nullptr;
   png_infop info_ = nullptr;
-  std::jmp_buf back_;
-  char message_[200] = "";
+  PngErrors errors_{};
 };
 
 }  // namespace
